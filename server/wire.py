@@ -29,79 +29,6 @@ class Message(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
 
 
-# --- queries: what the learner asks ------------------------------------------------------------------------------
-
-
-class Segment(Message):
-    """One (s_h, g_h, tau_h) of the learner's hierarchical trajectory."""
-
-    subgoal: Name | None = Field(description="The subgoal the learner pursued; null for a flat policy.")
-    states: list[JsonValue] = Field(max_length=10_000, description="s_1 .. s_{H+1}, in the domain's JSON view.")
-    actions: list[Name] = Field(max_length=10_000, description="a_1 .. a_H, one fewer than the states.")
-
-
-class AskBase(Message):
-    """What every query carries, whatever its kind."""
-
-    episode: int = Field(ge=0, le=2**31 - 1, description="Which episode of the run asks.")
-    ordinal: int = Field(ge=0, le=2**31 - 1, description="Which query of that episode this is, from 0.")
-    question: str = Field(max_length=500, description="The question in words, for a person.")
-    instance: JsonValue = Field(description="The environment instance, in the domain's JSON view.")
-    context: list[Segment] = Field(
-        default_factory=list, max_length=1_000, description="Segments that came before, shown but not asked about."
-    )
-
-
-class AskHierDemo(AskBase):
-    """HierDemo(s): carry out the task from state s and return the hierarchical trajectory."""
-
-    kind: Literal["hier_demo"]
-    state: JsonValue = Field(description="s, where the demonstration starts.")
-    max_segments: int = Field(ge=1, le=10_000, description="H_HI: a demonstration has at most so many segments.")
-    max_actions: int = Field(ge=1, le=10_000, description="H_FULL: and at most so many actions in all.")
-
-
-class AskInspectFull(AskBase):
-    """Inspect_FULL(tau_FULL): was the overall goal accomplished?"""
-
-    kind: Literal["inspect_full"]
-    segments: list[Segment] = Field(min_length=1, max_length=1_000)
-
-
-class AskLabelHi(AskBase):
-    """Label_HI(tau_HI): a good subgoal at the first state of each segment."""
-
-    kind: Literal["label_hi"]
-    segments: list[Segment] = Field(min_length=1, max_length=1_000)
-
-
-class AskInspectLo(AskBase):
-    """Inspect_LO(tau; g): did this one segment accomplish its subgoal?"""
-
-    kind: Literal["inspect_lo"]
-    segments: list[Segment] = Field(min_length=1, max_length=1)
-
-
-class AskLabelLo(AskBase):
-    """Label_LO(tau; g): a good action at each state of this one segment, and where it should have ended."""
-
-    kind: Literal["label_lo"]
-    segments: list[Segment] = Field(min_length=1, max_length=1)
-
-
-class AskLabelFull(AskBase):
-    """Label_FULL(tau_FULL): a good action at each state of the full trajectory."""
-
-    kind: Literal["label_full"]
-    segments: list[Segment] = Field(min_length=1, max_length=1_000)
-
-
-Ask = Annotated[
-    AskHierDemo | AskInspectFull | AskLabelHi | AskInspectLo | AskLabelLo | AskLabelFull,
-    Field(discriminator="kind"),
-]
-
-
 # --- answers: what an annotator returns ----------------------------------------------------------------------------
 
 
@@ -158,6 +85,83 @@ Answer = Annotated[
 ]
 
 
+# --- queries: what the learner asks ------------------------------------------------------------------------------
+
+
+class Segment(Message):
+    """One (s_h, g_h, tau_h) of the learner's hierarchical trajectory."""
+
+    subgoal: Name | None = Field(description="The subgoal the learner pursued; null for a flat policy.")
+    states: list[JsonValue] = Field(max_length=10_000, description="s_1 .. s_{H+1}, in the domain's JSON view.")
+    actions: list[Name] = Field(max_length=10_000, description="a_1 .. a_H, one fewer than the states.")
+
+
+class AskBase(Message):
+    """What every query carries, whatever its kind."""
+
+    episode: int = Field(ge=0, le=2**31 - 1, description="Which episode of the run asks.")
+    ordinal: int = Field(ge=0, le=2**31 - 1, description="Which query of that episode this is, from 0.")
+    question: str = Field(max_length=500, description="The question in words, for a person.")
+    instance: JsonValue = Field(description="The environment instance, in the domain's JSON view.")
+    context: list[Segment] = Field(
+        default_factory=list, max_length=1_000, description="Segments that came before, shown but not asked about."
+    )
+    suggestion: Answer | None = Field(
+        default=None,
+        description="The learner's own choice, as an answer to this query; what it did, not what is right.",
+    )
+
+
+class AskHierDemo(AskBase):
+    """HierDemo(s): carry out the task from state s and return the hierarchical trajectory."""
+
+    kind: Literal["hier_demo"]
+    state: JsonValue = Field(description="s, where the demonstration starts.")
+    max_segments: int = Field(ge=1, le=10_000, description="H_HI: a demonstration has at most so many segments.")
+    max_actions: int = Field(ge=1, le=10_000, description="H_FULL: and at most so many actions in all.")
+
+
+class AskInspectFull(AskBase):
+    """Inspect_FULL(tau_FULL): was the overall goal accomplished?"""
+
+    kind: Literal["inspect_full"]
+    segments: list[Segment] = Field(min_length=1, max_length=1_000)
+
+
+class AskLabelHi(AskBase):
+    """Label_HI(tau_HI): a good subgoal at the first state of each segment."""
+
+    kind: Literal["label_hi"]
+    segments: list[Segment] = Field(min_length=1, max_length=1_000)
+
+
+class AskInspectLo(AskBase):
+    """Inspect_LO(tau; g): did this one segment accomplish its subgoal?"""
+
+    kind: Literal["inspect_lo"]
+    segments: list[Segment] = Field(min_length=1, max_length=1)
+
+
+class AskLabelLo(AskBase):
+    """Label_LO(tau; g): a good action at each state of this one segment, and where it should have ended."""
+
+    kind: Literal["label_lo"]
+    segments: list[Segment] = Field(min_length=1, max_length=1)
+
+
+class AskLabelFull(AskBase):
+    """Label_FULL(tau_FULL): a good action at each state of the full trajectory."""
+
+    kind: Literal["label_full"]
+    segments: list[Segment] = Field(min_length=1, max_length=1_000)
+
+
+Ask = Annotated[
+    AskHierDemo | AskInspectFull | AskLabelHi | AskInspectLo | AskLabelLo | AskLabelFull,
+    Field(discriminator="kind"),
+]
+
+
 class Query(Message):
     """A query as everybody sees it: what was asked, where it stands, and its answer once it has one."""
 
@@ -173,3 +177,320 @@ class Query(Message):
     annotator: str | None = Field(description="Who answered, or who holds it now.")
     units: float | None = Field(description="What the answer cost.")
     seconds: float | None = Field(description="From lease to answer, by the server's clock.")
+
+
+class Asked(Message):
+    """The reply to `POST /runs/{id}/queries`: the queries in the order asked, old ones with their answers."""
+
+    queries: list[Query]
+
+
+class AskList(Message):
+    """One or more queries of one run. Asking again with the same (episode, ordinal) and content changes nothing."""
+
+    queries: list[Ask] = Field(min_length=1, max_length=1_000)
+    priority: int = Field(default=0, ge=-1_000, le=1_000, description="Higher is handed out first.")
+
+
+class AnswerPage(Message):
+    """Answers in the order they were given, after a cursor; `cursor` is where to go on."""
+
+    queries: list[Query]
+    cursor: int
+
+
+# --- runs -----------------------------------------------------------------------------------------------------------
+
+
+class Prices(Message):
+    """What one label costs, in units. The paper: Label = length of what is labeled, Inspect = 1."""
+
+    subgoal: Units = Field(default=1.0, description="One HI label: a subgoal at a state.")
+    action: Units = Field(default=1.0, description="One LO label: an action at a state.")
+    termination: Units = Field(default=1.0, description="The termination label of a segment's last state.")
+    inspect_full: Units = 1.0
+    inspect_lo: Units = 1.0
+
+
+class Vocabulary(Message):
+    """A domain's names, in the order of its own numbering, and how the page draws it."""
+
+    domain: Name
+    subgoals: list[Name] = Field(max_length=1_000, description="Empty for a domain without subgoals.")
+    actions: list[Name] = Field(min_length=1, max_length=1_000)
+    renderer: Name = Field(description="Which of the page's renderers draws its instances and states.")
+
+
+class RunCreate(Message):
+    """What a learner says of itself before it asks."""
+
+    name: Name
+    algorithm: Name
+    seed: int = Field(ge=0, le=2**63 - 1)
+    vocabulary: Vocabulary
+    config: dict[str, JsonValue] = Field(default_factory=dict, description="Every value that fixes the run.")
+    prices: Prices = Field(default_factory=Prices)
+    budget: Units | None = Field(default=None, description="Most units the run may ever cost; null for no limit.")
+    episodes: int | None = Field(default=None, ge=1, le=10**9, description="How many episodes are planned.")
+
+
+class RunPatch(Message):
+    """What may change in a run; absent fields stay as they are."""
+
+    name: Name | None = None
+    state: RunState | None = None
+    budget: Units | None = None
+    result: dict[str, JsonValue] | None = Field(default=None, description="What the learner reports at its end.")
+
+
+class Run(Message):
+    """A run and where its money is: `spent + reserved <= budget`, always."""
+
+    id: str
+    name: str
+    algorithm: str
+    seed: int
+    state: RunState
+    vocabulary: Vocabulary
+    config: dict[str, JsonValue]
+    prices: Prices
+    budget: float | None
+    reserved: float = Field(description="Units held for queries asked and not yet answered.")
+    spent: float
+    episodes: int | None
+    episodes_done: int
+    success_rate: float | None = Field(description="Over the trailing 100 test episodes; null before the first.")
+    open_queries: int
+    result: dict[str, JsonValue] | None
+    created_at: float
+    finished_at: float | None
+
+
+class RunList(Message):
+    """Runs, newest first."""
+
+    runs: list[Run]
+
+
+class EpisodeResult(Message):
+    """What one episode brought. Reporting it again with the same content changes nothing."""
+
+    episode: int = Field(ge=0, le=2**31 - 1)
+    warm_start: bool = Field(description="Whether this was a demonstration rather than a rollout.")
+    train_success: bool | None = Field(description="Did the training rollout succeed? Null for a demonstration.")
+    test_success: bool | None = Field(description="Did the test rollout on an unseen instance succeed?")
+    train_steps: int = Field(ge=0)
+    test_steps: int = Field(ge=0)
+    hi_labels: int = Field(ge=0, description="Size of D_HI after the episode.")
+    lo_labels: int = Field(ge=0, description="Size of all D_g (flat: of D) after the episode.")
+    seconds: float = Field(ge=0, allow_inf_nan=False, description="The learner's wall time for the episode.")
+
+
+class EpisodeList(Message):
+    """Results to report, in episode order."""
+
+    episodes: list[EpisodeResult] = Field(min_length=1, max_length=10_000)
+
+
+# --- curves and costs -----------------------------------------------------------------------------------------------
+
+
+class Curves(Message):
+    """Columns of equal length, a row per reported episode; costs are cumulative up to and with that episode."""
+
+    episode: list[int]
+    success_rate: list[float | None] = Field(description="Over the trailing 100 test episodes (fewer at the start).")
+    test_success: list[bool | None]
+    cost: list[float]
+    lo_cost: list[float] = Field(description="Units spent on LO labels: actions and terminations.")
+    seconds: list[float] = Field(description="Annotators' seconds.")
+    cost_by_kind: dict[Kind, list[float]]
+
+
+class Milestone(Message):
+    """When the success rate over 100 test episodes first reached a level."""
+
+    episode: int
+    cost: float
+
+
+class CostOfKind(Message):
+    """The ledger's sum for one kind of query."""
+
+    queries: int
+    units: float
+    lo_units: float
+    seconds: float
+
+
+class Costs(Message):
+    """The ledger of a run."""
+
+    total: float
+    lo_total: float
+    seconds: float
+    by_kind: dict[Kind, CostOfKind]
+    reserved: float
+    budget: float | None
+    first_at: dict[str, Milestone | None] = Field(description='By success level: "0.8", "0.9", "0.95", "0.99".')
+
+
+class Event(Message):
+    """One change of a run, as sent by server-sent events; `id` is the cursor to go on from."""
+
+    id: int
+    run: str
+    event: Literal["asked", "answered", "retracted", "used", "cancelled", "episode", "run"]
+    at: float
+    data: dict[str, JsonValue]
+
+
+# --- assignments ----------------------------------------------------------------------------------------------------
+
+
+class Lease(Message):
+    """What an annotator is willing to take."""
+
+    wait: float = Field(default=0, ge=0, le=60, allow_inf_nan=False, description="Wait so long for a query, seconds.")
+    kinds: list[Kind] | None = Field(default=None, description="Only these kinds; null for all.")
+    run: str | None = Field(default=None, description="Only this run; null for all.")
+    defer: float = Field(
+        default=0,
+        ge=0,
+        le=3_600,
+        allow_inf_nan=False,
+        description="Leave a query this many seconds to other annotators who are at work and take its kind. A bot that "
+        "helps people sets it; nobody else need.",
+    )
+
+
+class Assignment(Message):
+    """One query handed to one annotator under a lease. Only `token` and an unexpired lease can answer it."""
+
+    id: int
+    token: str
+    query: Query
+    run: Run
+    leased_at: float
+    expires_at: float
+    lease_seconds: float
+
+
+class AnswerPost(Message):
+    """An answer. Sending it again (same assignment, same content) returns the same receipt and costs nothing."""
+
+    token: str = Field(max_length=200)
+    answer: Answer
+    next: Lease | None = Field(default=None, description="Lease the next query in the same call; null for none.")
+
+
+class Receipt(Message):
+    """The answer is on disk and charged."""
+
+    query: int
+    answer: int
+    units: float
+    seconds: float
+    next: Assignment | None
+
+
+class TokenPost(Message):
+    """Shows that the caller holds the lease."""
+
+    token: str = Field(max_length=200)
+
+
+class Release(Message):
+    """Give a query back, unanswered."""
+
+    token: str = Field(max_length=200)
+    reason: str = Field(default="", max_length=500, description='Why; "" when only making room for others.')
+    skip: bool = Field(default=False, description="True: do not offer it to this annotator again.")
+
+
+class Renewal(Message):
+    """The lease after a heartbeat."""
+
+    expires_at: float
+
+
+# --- people ---------------------------------------------------------------------------------------------------------
+
+
+class Login(Message):
+    """A one-time code out of a login link."""
+
+    code: str = Field(min_length=1, max_length=200)
+
+
+class Me(Message):
+    """Who is calling."""
+
+    id: int
+    name: str
+    role: Role
+    answers: int = Field(description="Answers that counted.")
+    answers_today: int
+    median_seconds: float | None
+    units: float = Field(description="What these answers cost, in all runs.")
+
+
+class UserCreate(Message):
+    """A person or a program that may call."""
+
+    name: Name
+    role: Role
+
+
+class User(Message):
+    """A user, without secrets."""
+
+    id: int
+    name: str
+    role: Role
+    created_at: float
+
+
+class UserList(Message):
+    """All users."""
+
+    users: list[User]
+
+
+class TokenCreate(Message):
+    """An API token for a user."""
+
+    user: int
+    label: str = Field(default="", max_length=100)
+
+
+class NewToken(Message):
+    """A token, shown once; the server keeps only its hash."""
+
+    id: int
+    token: str
+
+
+class LoginLink(Message):
+    """A one-time login link's code, shown once."""
+
+    code: str
+    expires_at: float
+
+
+class Health(Message):
+    """Alive, or ready to work."""
+
+    status: Literal["ok"]
+    version: str
+
+
+class Problem(BaseModel):
+    """RFC 9457: what was wrong and what to do about it."""
+
+    type: str = Field(description="A stable name of the problem: `/problems/<name>`.")
+    title: str
+    status: int
+    detail: str
+    instance: str | None = None
+    errors: list[dict[str, JsonValue]] | None = Field(default=None, description="For 422: each field at fault.")
