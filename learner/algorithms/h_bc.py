@@ -1,0 +1,17 @@
+"""Hierarchical behavioral cloning, h-BC (Le et al. 2018, Algorithm 1)."""
+
+from collections.abc import Generator
+from typing import Any
+
+from learner.datasets import Labels
+from learner.learner import Learner
+from learner.queries import HierDemo, Query
+from learner.types import State
+
+
+def h_bc(s: State, learner: Learner) -> Generator[Query, Any, Labels]:  # noqa: ARG001 (algorithms share a signature)
+    """Run one episode, lines 3-9, from the start state s; Train (lines 10-11) follows in `Learner.learn`."""
+    labels = Labels()
+    sigma_star = yield HierDemo(s)  # line 4
+    labels.append_demonstration(sigma_star)  # lines 5-8
+    return labels

@@ -1,0 +1,96 @@
+"""The data buffers of the paper: D_HI, one D_g per subgoal, and a flat learner's D.
+
+A buffer holds rows (observation, choice, termination). The choice is a subgoal in D_HI and an action elsewhere;
+`UNLABELED` marks what an expert did not label, and what must not be learned from: the action in a state where the
+segment should have ended, and beta_g at a segment's first state, where it is never asked (docs/paper.md, deviation 4).
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import torch
+
+from learner.queries import LoLabels
+from learner.types import FLAT, META, Action, PolicyKey, Segment, Subgoal, Trajectory
+
+UNLABELED = -1
+
+
+@dataclass(frozen=True)
+class Row:
+    """One labeled state."""
+
+    observation: np.ndarray  # float32[observation shape]
+    choice: int
+    termination: int = UNLABELED
+
+
+class Dataset:
+    """A growing buffer of rows, kept as tensors with room to spare."""
+
+    def __init__(self, observation_shape: tuple[int, ...]) -> None:
+        self._observations = torch.empty((256, *observation_shape))
+        self._labels = torch.empty((256, 2), dtype=torch.int64)
+        self._size = 0
+
+    def __len__(self) -> int:
+        return self._size
+
+    @property
+    def observations(self) -> torch.Tensor:
+        """float32[N, observation shape]."""
+        return self._observations[: self._size]
+
+    @property
+    def labels(self) -> torch.Tensor:
+        """int64[N, 2]: choice, termination."""
+        return self._labels[: self._size]
+
+    def append(self, rows: Iterable[Row]) -> None:
+        """Add rows at the end."""
+        for row in rows:
+            if self._size == len(self._observations):
+                self._observations = torch.cat([self._observations, torch.empty_like(self._observations)])
+                self._labels = torch.cat([self._labels, torch.empty_like(self._labels)])
+            self._observations[self._size] = torch.from_numpy(row.observation)
+            self._labels[self._size] = torch.tensor((row.choice, row.termination))
+            self._size += 1
+
+
+@dataclass
+class Labels:
+    """What one episode taught: new rows for the buffers, by policy."""
+
+    rows: dict[PolicyKey, list[Row]] = field(default_factory=dict)
+
+    def append_hi(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> None:
+        """D_HI <- D_HI + {(s_h, g*_h)}."""
+        rows = self.rows.setdefault(META, [])
+        rows += [Row(s.start.observation, g) for s, g in zip(trajectory, good_subgoals, strict=True)]
+
+    def append_lo(self, segment: Segment, labels: LoLabels) -> None:
+        """D_g <- D_g + {(s, a*, omega*)}, up to the state where the segment should have ended."""
+        assert segment.subgoal is not None
+        rows = self.rows.setdefault(segment.subgoal, [])
+        steps = zip(segment.states, (*labels.actions, None), labels.terminations, strict=True)
+        for step, (state, action, ends) in enumerate(steps):
+            choice = UNLABELED if ends or action is None else action
+            termination = UNLABELED if step == 0 else int(ends)
+            if choice != UNLABELED or termination != UNLABELED:
+                rows.append(Row(state.observation, choice, termination))
+            if ends:
+                break
+
+    def append_demonstration(self, demonstration: Trajectory) -> None:
+        """Lines 5-8 of Algorithm 1: each segment's labels are what the expert did."""
+        for segment in demonstration:
+            terminations = (*(False for _ in segment.actions), True)
+            self.append_lo(segment, LoLabels(segment.actions, terminations))
+        self.append_hi(demonstration, [s.subgoal for s in demonstration if s.subgoal is not None])
+
+    def append_flat(self, trajectory: Trajectory, good_actions: Sequence[Action]) -> None:
+        """D <- D + {(s, a*)} over the full trajectory."""
+        states = [state for segment in trajectory for state in segment.states[:-1]]
+        rows = self.rows.setdefault(FLAT, [])
+        rows += [Row(s.observation, a) for s, a in zip(states, good_actions, strict=True)]

@@ -1,0 +1,95 @@
+"""What a domain brings, so that everything else works on it: the contract for plug-in authors.
+
+A domain is found through the entry-point group `waypost.domains`. It supplies a gymnasium environment, its names and
+horizons, JSON views of instances and states, and (optionally) an oracle of a few functions from which all six verbs of
+the paper are derived (`learner/experts/oracle.py`). `learner/domains/corridor.py` is the smallest complete example.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.metadata import entry_points
+from typing import Any, Protocol
+
+import gymnasium
+
+from learner.types import Action, Subgoal
+
+
+@dataclass(frozen=True)
+class Horizons:
+    """The longest segment, hierarchical trajectory and episode (H_LO, H_HI, H_FULL)."""
+
+    lo: int
+    hi: int
+    full: int
+
+
+@dataclass(frozen=True)
+class InstanceSets:
+    """Environment instances to train on, and unseen ones to test on."""
+
+    train: Sequence[Any]
+    test: Sequence[Any]
+
+
+class Oracle(Protocol):
+    """The computed expert of a domain. It sees JSON views only, so it can answer from anywhere."""
+
+    def good_subgoals(self, instance: Any, state: Any) -> Sequence[Subgoal]:
+        """Return every optimal subgoal in `state`, the preferred one first."""
+
+    def good_actions(self, instance: Any, origin: Any, state: Any, subgoal: Subgoal) -> Sequence[Action]:
+        """Return every optimal action in `state` toward `subgoal`, chosen in `origin`, the preferred one first."""
+
+    def reached(self, instance: Any, origin: Any, state: Any, subgoal: Subgoal) -> bool:
+        """Return whether `subgoal`, chosen in `origin`, is accomplished in `state`."""
+
+    def succeeded(self, instance: Any, state: Any) -> bool:
+        """Return whether the whole task is accomplished in `state`."""
+
+    def successor(self, instance: Any, state: Any, action: Action) -> Any:
+        """Return the state after `action`."""
+
+
+class Domain(Protocol):
+    """A domain. `subgoals` and `actions` give the names; everywhere else they are numbers in that order."""
+
+    name: str
+    subgoals: tuple[str, ...]
+    actions: tuple[str, ...]
+    renderer: str
+    horizons: Horizons
+    observation_shape: tuple[int, ...]
+    oracle: Oracle | None
+
+    def make_env(self) -> gymnasium.Env[Any, Any]:
+        """Return a new environment; `reset(options={"instance": instance})` starts a given instance."""
+
+    def instances(self, name: str) -> InstanceSets:
+        """Return the instances called `name`, or those of a file.
+
+        Raises:
+            ValueError: no such set, or a file that is none; the message says what is wrong and what exists.
+        """
+
+    def instance_view(self, instance: Any) -> Any:
+        """Return the JSON view of an instance."""
+
+    def state_view(self, env: gymnasium.Env[Any, Any]) -> Any:
+        """Return the JSON view of the state that `env` is in."""
+
+    def succeeded(self, env: gymnasium.Env[Any, Any]) -> bool:
+        """Return whether the task is accomplished in the state that `env` is in."""
+
+
+def find_domain(name: str) -> Domain:
+    """Return the domain called `name`.
+
+    Raises:
+        ValueError: there is none; the message lists those that exist.
+    """
+    found = {entry.name: entry for entry in entry_points(group="waypost.domains")}
+    if name not in found:
+        raise ValueError(f"there is no domain {name!r}; installed are: {', '.join(sorted(found))}")
+    domain: Domain = found[name].load()()
+    return domain

@@ -1,0 +1,45 @@
+"""The maze navigation domain of the paper."""
+
+from typing import Any
+
+from learner.domains.base import Horizons, InstanceSets
+from learner.domains.maze.env import MAX_STEPS, MazeEnv
+from learner.domains.maze.generator import KINDS, maze_set
+from learner.domains.maze.maze import ACTIONS, SIZE, SUBGOALS, Maze
+from learner.domains.maze.oracle import MazeOracle
+
+
+class MazeDomain:
+    """Rooms, doors and lava; the subgoals lead into the next room or to the target."""
+
+    name = "maze"
+    subgoals = SUBGOALS
+    actions = ACTIONS
+    renderer = "maze"
+    horizons = Horizons(lo=10, hi=MAX_STEPS, full=MAX_STEPS)
+    observation_shape = (3, SIZE, SIZE)
+
+    def __init__(self) -> None:
+        self.oracle = MazeOracle()
+
+    def make_env(self) -> MazeEnv:
+        """Return a new maze environment."""
+        return MazeEnv()
+
+    def instances(self, name: str) -> InstanceSets:
+        """Return the set `random` or `corners` (PAPER: 1,000 + 1,000 mazes), or the mazes of an `.npz` to test on."""
+        if name in KINDS:
+            return InstanceSets(*maze_set(name))
+        raise ValueError(name)
+
+    def instance_view(self, instance: Maze) -> Any:
+        """Return rows of text, start and goal."""
+        return instance.to_json()
+
+    def state_view(self, env: Any) -> Any:
+        """Return the agent's cell, [row, column]."""
+        return list(env.unwrapped.cell)
+
+    def succeeded(self, env: Any) -> bool:
+        """Return whether the agent is on the target."""
+        return bool(env.unwrapped.cell == env.unwrapped.maze.goal)

@@ -1,0 +1,57 @@
+"""A learner: policies, the data they learn from, and rollouts under them."""
+
+from typing import Any
+
+import numpy as np
+
+from learner.datasets import Dataset, Labels
+from learner.domains.base import Domain
+from learner.policies import Policy
+from learner.presets import Preset
+from learner.rollout import Rollout, flat_rollout, hierarchical_rollout, run
+from learner.simulator import Simulator
+from learner.types import FLAT, META, PolicyKey, State, Trajectory
+
+TRAIN, TEST = 0, 1
+"""Streams of randomness: training and test rollouts draw from different ones."""
+
+
+class Learner:
+    """mu and one pi_g with beta_g per subgoal, or one flat policy; and D_HI and D_g, or D."""
+
+    def __init__(self, domain: Domain, preset: Preset, seed: int, flat: bool = False) -> None:
+        self.domain, self.preset, self.seed, self.flat = domain, preset, seed, flat
+        self.simulator = Simulator(domain)
+        keys = [FLAT] if flat else [META, *range(len(domain.subgoals))]
+        self.policies = {key: self._policy(key) for key in keys}
+        self.data = {key: Dataset(domain.observation_shape) for key in keys}
+        self._episode = 0
+
+    def _policy(self, key: PolicyKey) -> Policy:
+        choices = len(self.domain.subgoals if key == META else self.domain.actions)
+        train = self.preset.train_hi if key == META else self.preset.train_lo
+        seed = int(np.random.SeedSequence([self.seed, key + 2]).generate_state(1)[0])
+        return Policy(self.domain.observation_shape, choices, key >= 0, self.preset.network, train, seed)
+
+    def start(self, instance: Any, episode: int) -> State:
+        """Put the simulator into the start state s of an instance."""
+        self._episode = episode
+        return self.simulator.reset(instance)
+
+    def roll_out(self, s: State) -> Trajectory:
+        """Roll out the present policies from s, the start state that `start` returned."""
+        del s  # the simulator is in it
+        return run(self.rollout(self.simulator, self.simulator.instance, TRAIN, self._episode), self.policies)
+
+    def rollout(self, simulator: Simulator, instance: Any, stream: int, episode: int) -> Rollout:
+        """Return a rollout whose draws depend on the seed, the stream and the episode alone."""
+        rng = np.random.default_rng([self.seed, stream, episode])
+        roll_out = flat_rollout if self.flat else hierarchical_rollout
+        return roll_out(simulator, instance, self.preset.choosing, rng)
+
+    def learn(self, labels: Labels) -> None:
+        """Append to the data buffers, then Train every policy."""
+        for key, rows in labels.rows.items():
+            self.data[key].append(rows)
+        for key, policy in self.policies.items():
+            policy.train(self.data[key])

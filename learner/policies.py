@@ -1,0 +1,91 @@
+"""mu, pi_g and beta_g as networks, and the paper's Train(policy, D).
+
+A `Policy` chooses among n alternatives: subgoals for mu, actions for pi_g and for a flat policy. With `terminates` it
+has one more output, the logit of beta_g ("one can also view the subgoal termination classifier as an extra head of the
+subgoal policy network", appendix).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch.nn import functional
+
+from learner.datasets import UNLABELED, Dataset
+from learner.networks import ConvNet, ConvSpec
+
+
+@dataclass(frozen=True)
+class TrainSpec:
+    """How Train works."""
+
+    learning_rate: float = 5e-4
+    batch: int = 64
+    samples_per_round: int = 4096  # at most; a smaller buffer is passed over once
+    bf16: bool = True  # mixed precision where the processor has bf16 arithmetic
+
+
+@dataclass(frozen=True)
+class Outputs:
+    """What a policy says of a batch of states."""
+
+    logits: NDArray[np.float32]  # [B, n]
+    termination: NDArray[np.float32]  # [B], the probability that beta_g is true; 0 without a termination head
+
+
+class Policy:
+    """A network that chooses among `choices` alternatives, with its optimizer and its place in the data."""
+
+    def __init__(
+        self,
+        observation_shape: tuple[int, ...],
+        choices: int,
+        terminates: bool,
+        network: ConvSpec,
+        train: TrainSpec,
+        seed: int,
+    ) -> None:
+        self.choices, self.terminates, self.spec = choices, terminates, train
+        torch.manual_seed(seed)  # for the initial weights
+        self.network = ConvNet(observation_shape, choices + int(terminates), network)
+        self.optimizer = torch.optim.Adam(self.network.parameters(), lr=train.learning_rate, fused=True)
+        self._rng = torch.Generator().manual_seed(seed)
+        self._bf16 = train.bf16 and torch.ops.mkldnn._is_mkldnn_bf16_supported()
+        self.network.eval()
+
+    @torch.inference_mode()
+    def __call__(self, observations: NDArray[np.float32]) -> Outputs:
+        """Evaluate float32[B, observation shape]."""
+        out = self.network(torch.from_numpy(observations))
+        fires = torch.sigmoid(out[:, -1]) if self.terminates else torch.zeros(len(out))
+        return Outputs(out[:, : self.choices].numpy(), fires.numpy())
+
+    def train(self, data: Dataset) -> None:
+        """Train(policy, D): one pass over the data in random order, at most `samples_per_round` rows of it."""
+        if not len(data):
+            return
+        torch.manual_seed(int(torch.randint(2**62, (), generator=self._rng)))  # for dropout
+        order = torch.randperm(len(data), generator=self._rng)[: self.spec.samples_per_round]
+        self.network.train()
+        for rows in order.split(self.spec.batch):
+            with torch.autocast("cpu", torch.bfloat16, enabled=self._bf16):
+                out = self.network(data.observations[rows].contiguous(memory_format=torch.channels_last))
+            loss = self._loss(out.float(), data.labels[rows])
+            self.optimizer.zero_grad()
+            loss.backward()
+            self.optimizer.step()
+        self.network.eval()
+
+    def _loss(self, out: torch.Tensor, labels: torch.Tensor) -> torch.Tensor:
+        """Cross-entropy of the choices plus that of the terminations, over the rows where each is labeled."""
+        choices, terminations = labels[:, 0], labels[:, 1]
+        loss = functional.cross_entropy(out[:, : self.choices], choices, ignore_index=UNLABELED, reduction="sum") / len(
+            labels
+        )
+        if self.terminates:
+            labeled = terminations != UNLABELED
+            loss = loss + functional.binary_cross_entropy_with_logits(
+                out[:, self.choices], terminations.clamp(min=0).float(), labeled.float(), reduction="sum"
+            ) / len(labels)
+        return loss

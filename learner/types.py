@@ -1,0 +1,49 @@
+"""The nouns of the paper (section 3), as values that never change.
+
+A hierarchical trajectory sigma is a tuple of segments (s_h, g_h, tau_h); a flat trajectory is one segment without a
+subgoal. Subgoals and actions are numbers here, in the order of the domain's own lists; names only exist on the wire.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Subgoal = int
+Action = int
+PolicyKey = int
+"""Names a policy and its data buffer: pi_g and D_g have the key g, and these two have keys of their own."""
+META: PolicyKey = -1
+FLAT: PolicyKey = -2
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """One environment state s: what the networks see, and the JSON view that experts see."""
+
+    observation: NDArray[np.float32]
+    view: Any
+
+
+@dataclass(frozen=True, eq=False)
+class Segment:
+    """(s_h, g_h, tau_h): a subgoal and the LO-level trajectory that carried it out."""
+
+    subgoal: Subgoal | None
+    states: tuple[State, ...]  # s_1 .. s_{H+1}
+    actions: tuple[Action, ...]  # a_1 .. a_H
+    terminated: bool  # whether beta_g ended it, rather than the horizon or the episode
+
+    @property
+    def start(self) -> State:
+        """s_h, where the subgoal was chosen."""
+        return self.states[0]
+
+
+Trajectory = tuple[Segment, ...]
+
+
+def n_actions(trajectory: Trajectory) -> int:
+    """Return the length of the full trajectory tau_FULL."""
+    return sum(len(segment.actions) for segment in trajectory)
