@@ -26,7 +26,7 @@ Units = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
 class Message(BaseModel):
     """What all messages share: unknown fields and lax conversions (`"3"` for 3) are refused."""
 
-    model_config = ConfigDict(extra="forbid", strict=True)
+    model_config = ConfigDict(extra="forbid", strict=True, json_schema_serialization_defaults_required=True)
 
 
 # --- answers: what an annotator returns ----------------------------------------------------------------------------
@@ -190,6 +190,12 @@ class AskList(Message):
 
     queries: list[Ask] = Field(min_length=1, max_length=1_000)
     priority: int = Field(default=0, ge=-1_000, le=1_000, description="Higher is handed out first.")
+
+
+class QueryList(Message):
+    """Queries of a run, newest first; `before` the last one's id goes on."""
+
+    queries: list[Query]
 
 
 class AnswerPage(Message):
@@ -374,6 +380,12 @@ class Assignment(Message):
     leased_at: float
     expires_at: float
     lease_seconds: float
+
+
+class AssignmentList(Message):
+    """The caller's live assignments, oldest first: what a reloaded page goes on with."""
+
+    assignments: list[Assignment]
 
 
 class AnswerPost(Message):

@@ -1,0 +1,86 @@
+"""Who may call what: each route depends on one of these."""
+
+from collections.abc import Callable, Coroutine
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from fastapi import Depends, Request
+from fastapi.security import APIKeyCookie, HTTPBearer
+
+from server import errors
+from server.context import Context, Ctx
+from server.wire import Role
+
+COOKIE = "waypost_session"
+
+_bearer = HTTPBearer(auto_error=False, scheme_name="token", description="An API token, `wp_...`.")
+_cookie = APIKeyCookie(name=COOKIE, auto_error=False, scheme_name="session", description="A browser's session.")
+
+ANYONE: frozenset[Role] = frozenset({"admin", "learner", "annotator", "viewer"})
+LEARNERS: frozenset[Role] = frozenset({"admin", "learner"})
+ANNOTATORS: frozenset[Role] = frozenset({"admin", "annotator"})
+ADMINS: frozenset[Role] = frozenset({"admin"})
+
+
+@dataclass(frozen=True)
+class Caller:
+    """The user behind a request and the credential it came with."""
+
+    user: int
+    name: str
+    role: Role
+    credential: int
+    by_cookie: bool
+
+
+async def authenticate(request: Request, context: Ctx) -> Caller:
+    """Return who calls, by bearer token or by session cookie."""
+    scheme, _, token = request.headers.get("authorization", "").partition(" ")
+    secret, by_cookie = (token.strip(), False) if scheme.lower() == "bearer" else (request.cookies.get(COOKIE), True)
+    if not secret:
+        raise errors.Unauthenticated("Send `Authorization: Bearer <token>`, or open a login link (waypost login-link).")
+    caller = await _lookup(context, secret, by_cookie)
+    if caller is None:
+        raise errors.Unauthenticated("The token or session is unknown, expired or revoked; get a new one.")
+    return caller
+
+
+async def _lookup(context: Context, secret: str, by_cookie: bool) -> Caller | None:
+    found = await context.credentials.find(secret, "session" if by_cookie else "api")
+    if found is None:
+        return None
+    return Caller(found.user, found.name, found.role, found.credential, by_cookie)
+
+
+def allow(roles: frozenset[Role]) -> Callable[..., Coroutine[Any, Any, Caller]]:
+    """Return a dependency that lets only these roles in; a cookie also needs a request from the page itself."""
+
+    async def check(
+        request: Request, context: Ctx, _token: Annotated[Any, Depends(_bearer)], _session: Annotated[Any, Depends(_cookie)]
+    ) -> Caller:
+        caller = await authenticate(request, context)
+        if caller.by_cookie and request.method not in {"GET", "HEAD"}:
+            refuse_cross_site(request)
+        if caller.role not in roles:
+            raise errors.Forbidden(f"This needs the role {' or '.join(sorted(roles))}; {caller.name} is {caller.role}.")
+        return caller
+
+    return check
+
+
+def refuse_cross_site(request: Request) -> None:
+    """Refuse an unsafe request unless the browser says that this server's own page caused it."""
+    site = request.headers.get("sec-fetch-site")
+    if site is not None:
+        if site in {"same-origin", "none"}:
+            return
+        raise errors.CrossSite(f"The request came from a {site} page.")
+    origin = request.headers.get("origin", "")
+    if origin.partition("://")[2] != request.headers.get("host"):
+        raise errors.CrossSite("With a session cookie, send the page's Origin; a program should use a token instead.")
+
+
+AnyoneCalls = Annotated[Caller, Depends(allow(ANYONE))]
+LearnerCalls = Annotated[Caller, Depends(allow(LEARNERS))]
+AnnotatorCalls = Annotated[Caller, Depends(allow(ANNOTATORS))]
+AdminCalls = Annotated[Caller, Depends(allow(ADMINS))]

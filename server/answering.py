@@ -1,0 +1,205 @@
+"""Answering: check, store, charge and close in one unit of work; and taking an answer back.
+
+A late answer is refused, but kept: it is stored without a revision, so it never counts and costs nothing. The refusal
+is therefore part of the outcome rather than an exception, which would undo the storing.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+from sqlalchemy import Row, insert, select, update
+
+from server import canonical, errors, events, kinds, money, queries, queue, runs, wire
+from server.database import Tx
+from server.money import Cost, Entry, to_units
+from server.settings import Settings
+from server.tables import answers, assignments, ledger
+from server.tables import queries as query_table
+
+
+@dataclass(frozen=True)
+class Post:
+    """An answer as it was sent."""
+
+    assignment: int
+    user: int
+    token: str
+    answer: wire.Answer
+    key: str | None
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of an answer."""
+
+    given: wire.Receipt | None
+    refusal: errors.Refusal | None = None
+
+    def receipt(self) -> wire.Receipt:
+        """Return the receipt, or raise the refusal that was committed."""
+        if self.refusal is not None or self.given is None:
+            raise self.refusal or errors.StorageFailed("There is no receipt.")
+        return self.given
+
+
+@dataclass(frozen=True)
+class Case:
+    """Everything an answer is judged by, with its run and query locked."""
+
+    held: queue.Held
+    run: Row[Any]
+    query: Row[Any]
+    ask: wire.Ask
+    text: str
+    digest: str
+
+
+def answer(tx: Tx, post: Post, wish: queue.Wish | None) -> Outcome:
+    """Take an answer, and lease the annotator's next query if there is one now."""
+    case = _open(tx, post)
+    _refuse_reused_key(tx, post, case)
+    earlier = tx.conn.execute(select(answers).where(answers.c.assignment_id == post.assignment)).one_or_none()
+    if earlier is not None:
+        return _again(tx, case, earlier, wish)
+    words = kinds.Words.of(wire.Vocabulary.model_validate_json(case.run.vocabulary))
+    kinds.check_answer(case.ask, post.answer, words, ["body", "answer"])
+    try:
+        queue.refuse_ended(case.held, tx.now)
+    except errors.Conflict as refusal:
+        _store(tx, post, case, None, Cost(0))
+        queue.expire(tx)
+        return Outcome(None, refusal)
+    return Outcome(_accept(tx, post, case, wish))
+
+
+def _open(tx: Tx, post: Post) -> Case:
+    run = runs.lock(tx, queue.find(tx, post.assignment, post.user, post.token).run)
+    held = queue.find(tx, post.assignment, post.user, post.token)
+    query = tx.conn.execute(select(query_table).where(query_table.c.id == held.query).with_for_update()).one()
+    held = queue.find(tx, post.assignment, post.user, post.token)
+    text = canonical.text(post.answer.model_dump(mode="json"))
+    return Case(held, run, query, queries.ASK.validate_json(query.ask), text, canonical.digest(text))
+
+
+def _refuse_reused_key(tx: Tx, post: Post, case: Case) -> None:
+    if post.key is None:
+        return
+    same = (answers.c.user_id == post.user, answers.c.idempotency_key == post.key)
+    row = tx.conn.execute(select(answers).where(*same)).one_or_none()
+    if row is not None and (row.assignment_id, row.digest) != (post.assignment, case.digest):
+        raise errors.KeyReused("This Idempotency-Key came before with another answer; use a new one.")
+
+
+def _again(tx: Tx, case: Case, earlier: Row[Any], wish: queue.Wish | None) -> Outcome:
+    """Answer an answer that came before: the same receipt for the same content."""
+    if earlier.revision is None:
+        raise errors.LeaseExpired("The lease ended before this came; the query is back in the queue.")
+    if earlier.digest != case.digest:
+        raise errors.DifferentContent("This assignment was answered otherwise; take that answer back to correct it.")
+    if case.query.answer_id != earlier.id:
+        raise errors.AnswerRetracted("This answer was taken back.")
+    following = queue.granted_after(tx, case.held.id)
+    if following is None and wish is not None:
+        following = queue.lease(tx, wish)
+    return Outcome(_receipt(earlier, following))
+
+
+def _accept(tx: Tx, post: Post, case: Case, wish: queue.Wish | None) -> wire.Receipt:
+    """Store, charge and close."""
+    cost = kinds.cost(post.answer, wire.Prices.model_validate_json(case.run.prices))
+    stored = _store(tx, post, case, case.query.revision, cost)
+    entry = Entry(
+        case.run.id, case.query.id, stored.id, case.query.kind, case.query.episode, cost, stored.seconds
+    )
+    money.charge(tx, entry, case.query.reserve)
+    tx.conn.execute(
+        update(assignments).where(assignments.c.id == case.held.id).values(state="answered", ended_at=tx.now)
+    )
+    tx.conn.execute(
+        update(query_table).where(query_table.c.id == case.query.id).values(state="answered", answer_id=stored.id)
+    )
+    data = {
+        "query": case.query.id,
+        "answer": stored.id,
+        "kind": case.query.kind,
+        "episode": case.query.episode,
+        "units": to_units(cost.units),
+    }
+    events.add(tx, case.run.id, "answered", data)
+    tx.wake(queries.topic(case.query.id), runs.answers_topic(case.run.id))
+    return _receipt(stored, None if wish is None else queue.lease(tx, wish))
+
+
+def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> Row[Any]:
+    return tx.conn.execute(
+        insert(answers)
+        .values(
+            run_id=case.run.id,
+            query_id=case.query.id,
+            assignment_id=post.assignment,
+            user_id=post.user,
+            content=case.text,
+            digest=case.digest,
+            idempotency_key=post.key,
+            revision=revision,
+            units=cost.units,
+            seconds=max(tx.now - case.held.leased_at, 0.0),
+            created_at=tx.now,
+        )
+        .returning(answers)
+    ).one()
+
+
+def _receipt(stored: Row[Any], following: wire.Assignment | None) -> wire.Receipt:
+    return wire.Receipt(
+        query=stored.query_id,
+        answer=stored.id,
+        units=to_units(stored.units),
+        seconds=stored.seconds,
+        next=following,
+    )
+
+
+def retract(tx: Tx, assignment: int, user: int, token: str, settings: Settings) -> wire.Assignment:
+    """Take an answer back and lease its query to the same annotator again; what it cost is refunded."""
+    held = queue.find(tx, assignment, user, token)
+    run = runs.lock(tx, held.run)
+    query = tx.conn.execute(select(query_table).where(query_table.c.id == held.query).with_for_update()).one()
+    given = tx.conn.execute(select(answers).where(answers.c.assignment_id == assignment)).one_or_none()
+    if given is None or given.revision is None:
+        raise errors.LeaseEnded("This assignment has no answer that counts.")
+    if query.answer_id != given.id:
+        return _retracted_before(tx, query.id, user)
+    if query.used:
+        raise errors.AnswerUsed("The learner has trained on this answer; it can be taken back no more.")
+    if run.state == "finished":
+        raise errors.RunFinished("The run is finished; its answers stay.")
+    charged = tx.conn.execute(
+        select(ledger).where(ledger.c.answer_id == given.id, ledger.c.entry == "charge")
+    ).one()
+    cost = Cost(charged.units, charged.lo_units)
+    entry = Entry(run.id, query.id, given.id, query.kind, query.episode, cost, charged.seconds)
+    money.refund(tx, entry, runs.account(run), query.reserve)
+    tx.conn.execute(
+        update(query_table)
+        .where(query_table.c.id == query.id)
+        .values(state="leased", answer_id=None, revision=query.revision + 1)
+    )
+    events.add(tx, run.id, "retracted", {"query": query.id, "answer": given.id, "units": to_units(cost.units)})
+    tx.wake(queries.topic(query.id))
+    again = queue.grant(tx, query.id, user, settings.lease_seconds, deferring=False)
+    return queue.view(tx, again)
+
+
+def _retracted_before(tx: Tx, query: int, user: int) -> wire.Assignment:
+    """Return the assignment an earlier retraction gave, if it is still live."""
+    live_now = select(assignments.c.id).where(
+        assignments.c.query_id == query,
+        assignments.c.user_id == user,
+        assignments.c.state == "live",
+        assignments.c.expires_at > tx.now,
+    )
+    one = tx.conn.execute(live_now).scalar_one_or_none()
+    if one is None:
+        raise errors.AnswerRetracted("This answer was taken back before.")
+    return queue.view(tx, one)

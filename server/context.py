@@ -1,0 +1,36 @@
+"""What every request can reach: the settings, the store, the wake-ups."""
+
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from typing import Annotated, cast
+
+from fastapi import Depends, Request
+
+from server.auth import Attempts, Credentials
+from server.database import Database
+from server.live import Hub
+from server.settings import Settings
+
+try:
+    VERSION = version("waypost")
+except PackageNotFoundError:  # run from a checkout that was not installed
+    VERSION = "0.0.0"
+
+
+@dataclass(frozen=True)
+class Context:
+    """One server's state."""
+
+    settings: Settings
+    db: Database
+    hub: Hub
+    credentials: Credentials
+    attempts: Attempts
+
+
+async def context_of(request: Request) -> Context:
+    """Return the context of the app that serves a request."""
+    return cast(Context, request.app.state.context)
+
+
+Ctx = Annotated[Context, Depends(context_of)]

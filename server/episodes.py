@@ -1,0 +1,49 @@
+"""Episodes: what each brought, as the learner reports it."""
+
+from collections.abc import Sequence
+
+from sqlalchemy import insert, select
+
+from server import canonical, errors, events, runs, wire
+from server.database import Tx
+from server.tables import episodes
+
+
+def report(tx: Tx, run: str, results: Sequence[wire.EpisodeResult]) -> wire.Run:
+    """Store results; the same result again changes nothing.
+
+    Raises:
+        DifferentContent: if an episode was reported otherwise.
+        RunFinished: if a finished run reports something new.
+    """
+    row = runs.lock(tx, run)
+    numbers = [result.episode for result in results]
+    stored = select(episodes.c.episode, episodes.c.result).where(
+        episodes.c.run_id == run, episodes.c.episode.in_(numbers)
+    )
+    known = {found.episode: found.result for found in tx.conn.execute(stored)}
+    for result in results:
+        text = canonical.text(result.model_dump(mode="json"))
+        if known.get(result.episode, text) != text:
+            raise errors.DifferentContent(f"Episode {result.episode} was reported before, with another result.")
+        if result.episode in known:
+            continue
+        if row.state == "finished":
+            raise errors.RunFinished("The run is finished; it reports nothing more.")
+        known[result.episode] = text
+        _insert(tx, run, result, text)
+    return runs.view(tx, run)
+
+
+def _insert(tx: Tx, run: str, result: wire.EpisodeResult, text: str) -> None:
+    tx.conn.execute(
+        insert(episodes).values(
+            run_id=run,
+            episode=result.episode,
+            test_success=result.test_success,
+            result=text,
+            created_at=tx.now,
+        )
+    )
+    data = {"episode": result.episode, "train_success": result.train_success, "test_success": result.test_success}
+    events.add(tx, run, "episode", data)

@@ -1,0 +1,64 @@
+"""Events: what changed in a run, in the order of the commits, streamed to whoever watches."""
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Mapping
+from typing import Any
+
+from fastapi import Request
+from sqlalchemy import func, insert, select
+
+from server import live, wire
+from server.context import Context
+from server.database import Tx
+from server.tables import events
+
+PING_SECONDS = 15.0
+PAGE = 500
+
+
+def topic(run: str) -> str:
+    """Return what a new event of a run wakes."""
+    return f"events:{run}"
+
+
+def add(tx: Tx, run: str, event: str, data: Mapping[str, Any]) -> None:
+    """Record a change. The caller holds the run's row, so ids grow in the order of the commits."""
+    tx.conn.execute(insert(events).values(run_id=run, event=event, data=json.dumps(data), created_at=tx.now))
+    tx.wake(topic(run))
+
+
+def newest(tx: Tx, run: str) -> int:
+    """Return the id of a run's newest event, 0 before the first."""
+    newest = select(func.coalesce(func.max(events.c.id), 0)).where(events.c.run_id == run)
+    return int(tx.conn.execute(newest).scalar_one())
+
+
+def after(tx: Tx, run: str, cursor: int) -> list[wire.Event]:
+    """Return the next events past a cursor."""
+    chosen = select(events).where(events.c.run_id == run, events.c.id > cursor).order_by(events.c.id).limit(PAGE)
+    return [
+        wire.Event(id=row.id, run=row.run_id, event=row.event, at=row.created_at, data=json.loads(row.data))
+        for row in tx.conn.execute(chosen)
+    ]
+
+
+async def stream(context: Context, request: Request, run: str, cursor: int) -> AsyncIterator[str]:
+    """Yield server-sent events until the client leaves or the server stops."""
+    clock = asyncio.get_running_loop().time
+    quiet_since = clock()
+    yield "retry: 1000\n\n"
+    while not context.hub.closed and not await request.is_disconnected():
+        changed = context.hub.watch(topic(run))
+        position = cursor
+        found = await context.db.read(lambda tx: after(tx, run, position))
+        for event in found:
+            yield f"id: {event.id}\nevent: {event.event}\ndata: {event.model_dump_json()}\n\n"
+            cursor = event.id
+        if found:
+            quiet_since = clock()
+            continue
+        if clock() - quiet_since >= PING_SECONDS:
+            yield ": still here\n\n"
+            quiet_since = clock()
+        await live.pause(changed, context.settings.poll_seconds)

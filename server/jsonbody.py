@@ -1,0 +1,33 @@
+"""Bodies read as strict JSON: bounded depth, no NaN, no broken strings."""
+
+import json
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from fastapi import Request, Response
+from fastapi.routing import APIRoute
+from pydantic_core import from_json
+
+
+class JsonRequest(Request):
+    """A request whose JSON is parsed as strictly as RFC 8259 lets one (and to a depth of 200)."""
+
+    async def json(self) -> Any:
+        """Parse the body; what is not JSON becomes a 422 that says where."""
+        try:
+            return from_json(await self.body(), allow_inf_nan=False)
+        except ValueError as error:
+            raise json.JSONDecodeError(str(error), "", 0) from None
+
+
+class JsonRoute(APIRoute):
+    """A route that parses its body so."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        """Return FastAPI's handler, given the stricter request."""
+        handler = super().get_route_handler()
+
+        async def handle(request: Request) -> Response:
+            return await handler(JsonRequest(request.scope, request.receive))
+
+        return handle

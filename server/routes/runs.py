@@ -1,0 +1,86 @@
+"""Runs: create, list, change, report episodes, and read their curves, costs and events."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Header, Query, Request
+from fastapi.responses import StreamingResponse
+
+from server import curves, episodes, errors, events, runs, wire
+from server.access import AnyoneCalls, LearnerCalls
+from server.context import Ctx
+from server.jsonbody import JsonRoute
+from server.problems import refusals
+
+router = APIRouter(prefix="/runs", tags=["runs"], route_class=JsonRoute)
+
+
+@router.post("", status_code=201, operation_id="createRun")
+async def create_run(body: wire.RunCreate, context: Ctx, caller: LearnerCalls) -> wire.Run:
+    """Create a run: one learner's training with one algorithm, domain, seed and cost model."""
+    return await context.db.write(lambda tx: runs.create(tx, body, caller.user))
+
+
+@router.get("", operation_id="listRuns")
+async def list_runs(
+    context: Ctx, _: AnyoneCalls, limit: Annotated[int, Query(ge=1, le=1_000)] = 200
+) -> wire.RunList:
+    """List runs, newest first."""
+    return await context.db.read(lambda tx: runs.newest(tx, limit))
+
+
+@router.get("/{run}", operation_id="getRun", responses=refusals(errors.NotFound))
+async def get_run(run: str, context: Ctx, _: AnyoneCalls) -> wire.Run:
+    """Return a run and where its money is."""
+    return await context.db.read(lambda tx: runs.view(tx, run))
+
+
+@router.patch(
+    "/{run}", operation_id="patchRun", responses=refusals(errors.NotFound, errors.RunFinished, errors.BudgetTooLow)
+)
+async def patch_run(run: str, body: wire.RunPatch, context: Ctx, _: LearnerCalls) -> wire.Run:
+    """Rename, pause, resume or finish a run, or set its budget. Finishing cancels what is still open."""
+    return await context.db.write(lambda tx: runs.patch(tx, run, body))
+
+
+@router.post(
+    "/{run}/episodes",
+    operation_id="reportEpisodes",
+    responses=refusals(errors.NotFound, errors.DifferentContent, errors.RunFinished),
+)
+async def report_episodes(run: str, body: wire.EpisodeList, context: Ctx, _: LearnerCalls) -> wire.Run:
+    """Report what episodes brought. Reporting the same again changes nothing."""
+    return await context.db.write(lambda tx: episodes.report(tx, run, body.episodes))
+
+
+@router.get("/{run}/curves", operation_id="getCurves", responses=refusals(errors.NotFound))
+async def get_curves(run: str, context: Ctx, _: AnyoneCalls) -> wire.Curves:
+    """Return success and cumulative cost by episode."""
+    return await context.db.read(lambda tx: curves.curves(tx, run))
+
+
+@router.get("/{run}/costs", operation_id="getCosts", responses=refusals(errors.NotFound))
+async def get_costs(run: str, context: Ctx, _: AnyoneCalls) -> wire.Costs:
+    """Return the ledger's sums, by kind of query."""
+    return await context.db.read(lambda tx: curves.costs(tx, run))
+
+
+@router.get(
+    "/{run}/events",
+    operation_id="streamEvents",
+    response_class=StreamingResponse,
+    responses=refusals(errors.NotFound)
+    | {200: {"model": wire.Event, "description": "Server-sent events; each `data` is an Event.", "content": {"text/event-stream": {}}}},
+)
+async def stream_events(
+    run: str,
+    request: Request,
+    context: Ctx,
+    _: AnyoneCalls,
+    after: Annotated[int | None, Query(ge=0, le=2**63 - 1, description="Only events past this id; absent: only new ones.")] = None,
+    last_event_id: Annotated[str | None, Header(max_length=20)] = None,
+) -> StreamingResponse:
+    """Stream what happens in a run, from a cursor on."""
+    start = int(last_event_id) if last_event_id and last_event_id.isascii() and last_event_id.isdigit() else after
+    newest = await context.db.read(lambda tx: events.newest(tx, runs.find(tx, run).id))
+    cursor = newest if start is None else start
+    return StreamingResponse(events.stream(context, request, run, cursor), media_type="text/event-stream")
