@@ -1,0 +1,7 @@
+// Before the first paint, so that a remembered theme never flashes the other one. Mirrors src/ui/theme.svelte.ts.
+try {
+  const theme = localStorage.getItem('waypost:theme');
+  if (theme === 'light' || theme === 'dark') document.documentElement.dataset.theme = theme;
+} catch {
+  // Storage may be off; then the system's own theme applies.
+}

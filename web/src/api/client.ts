@@ -1,0 +1,60 @@
+import createClient from 'openapi-fetch';
+import type { components, paths } from './schema';
+
+type Problem = components['schemas']['Problem'];
+
+/** The server said no. `name` is the stable name of the problem, such as `lease-expired`. */
+export class Refused extends Error {
+  readonly status: number;
+  override readonly name: string;
+
+  constructor(status: number, problem: Partial<Problem> | undefined) {
+    super(problem?.detail ?? `The server answered with status ${status}.`);
+    this.status = status;
+    this.name = problem?.type?.split('/').at(-1) ?? 'refused';
+  }
+}
+
+/** The server could not be reached, or failed in a way that passes. */
+export class Unreachable extends Error {}
+
+export const api = createClient<paths>({ baseUrl: '/' });
+
+interface Reply<T> {
+  data?: T;
+  error?: unknown;
+  response: Response;
+}
+
+/** The body of a good reply; throws `Refused` or `Unreachable` otherwise. */
+export async function unwrap<T>(call: Promise<Reply<T>>): Promise<T> {
+  const reply = await reached(call);
+  if (reply.response.ok) return reply.data as T;
+  const { status } = reply.response;
+  const problem = typeof reply.error === 'object' ? (reply.error as Partial<Problem>) : undefined;
+  if (isPassing(status)) throw new Unreachable(problem?.detail ?? `Status ${status}`);
+  throw new Refused(status, problem);
+}
+
+async function reached<T>(call: Promise<Reply<T>>): Promise<Reply<T>> {
+  try {
+    return await call;
+  } catch (error) {
+    if (error instanceof DOMException && error.name === 'AbortError') throw error;
+    throw new Unreachable(error instanceof Error ? error.message : String(error));
+  }
+}
+
+/** Too slow, too often, or broken for now: the same request may do later. */
+function isPassing(status: number): boolean {
+  return status === 408 || status === 429 || status >= 500;
+}
+
+export function isAborted(error: unknown): boolean {
+  return error instanceof DOMException && error.name === 'AbortError';
+}
+
+export function wordsOf(error: unknown): string {
+  if (error instanceof Unreachable) return 'The server cannot be reached. Trying again by itself.';
+  return error instanceof Error ? error.message : String(error);
+}

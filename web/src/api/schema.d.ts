@@ -1,0 +1,4083 @@
+/** Generated from the server's OpenAPI document by `npm run types`. Do not edit. */
+
+export interface paths {
+    "/api/v1/runs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Runs
+         * @description List runs, newest first.
+         */
+        get: operations["listRuns"];
+        put?: never;
+        /**
+         * Create Run
+         * @description Create a run: one learner's training with one algorithm, domain, seed and cost model.
+         */
+        post: operations["createRun"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run
+         * @description Return a run and where its money is.
+         */
+        get: operations["getRun"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        /**
+         * Patch Run
+         * @description Rename, pause, resume or finish a run, or set its budget. Finishing cancels what is still open.
+         */
+        patch: operations["patchRun"];
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/episodes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Report Episodes
+         * @description Report what episodes brought. Reporting the same again changes nothing.
+         */
+        post: operations["reportEpisodes"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/curves": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Curves
+         * @description Return success and cumulative cost by episode.
+         */
+        get: operations["getCurves"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/costs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Costs
+         * @description Return the ledger's sums, by kind of query.
+         */
+        get: operations["getCosts"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Stream Events
+         * @description Stream what happens in a run, from a cursor on.
+         */
+        get: operations["streamEvents"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/queries": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Queries
+         * @description List a run's queries, newest first.
+         */
+        get: operations["listQueries"];
+        put?: never;
+        /**
+         * Ask
+         * @description Ask the expert: all of the queries or none. A query asked before is returned with its answer.
+         */
+        post: operations["ask"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/queries/{query}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Query
+         * @description Return a query; with `wait`, as soon as it is answered or cancelled.
+         */
+        get: operations["getQuery"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/answers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Answers
+         * @description Return the queries answered after a cursor, in the order of their answers; with `wait`, as soon as there is one.
+         */
+        get: operations["listAnswers"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/queries/{query}/use": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Use Answer
+         * @description Mark the answer as used: from now on it can be retracted no more.
+         */
+        post: operations["useAnswer"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/assignments": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * My Assignments
+         * @description List the caller's live assignments, so that a reloaded page can go on with them.
+         */
+        get: operations["myAssignments"];
+        put?: never;
+        /**
+         * Lease
+         * @description Lease the next query, waiting for one if need be.
+         */
+        post: operations["lease"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/assignments/{assignment}/answer": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Answer
+         * @description Answer: stored, charged and closed in one transaction, acknowledged when it is on disk.
+         */
+        post: operations["answer"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/assignments/{assignment}/renew": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Renew
+         * @description Keep the lease: it lives from now on for its full length, up to the server's cap.
+         */
+        post: operations["renew"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/assignments/{assignment}/release": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Release
+         * @description Give the query back, unanswered; with `skip`, not to be offered it again.
+         */
+        post: operations["release"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/assignments/{assignment}/retract": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Retract
+         * @description Take an answer back that the learner has not used: it is refunded, and its query is leased again.
+         */
+        post: operations["retract"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/session": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Login
+         * @description Trade the one-time code of a login link for a session cookie.
+         */
+        post: operations["login"];
+        /**
+         * Logout
+         * @description End the session, or revoke the token, that this request came with.
+         */
+        delete: operations["logout"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/me": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Me
+         * @description Say who is calling, and what they have answered.
+         */
+        get: operations["me"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/users": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Users
+         * @description List all users.
+         */
+        get: operations["listUsers"];
+        put?: never;
+        /**
+         * Create User
+         * @description Create a user: a person or a program that may call.
+         */
+        post: operations["createUser"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/users/{user}/login-links": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Create Login Link
+         * @description Create a one-time login code; the link is `<this server>/login#<code>`.
+         */
+        post: operations["createLoginLink"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Create Token
+         * @description Create an API token; it is shown this once.
+         */
+        post: operations["createToken"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tokens/{token}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Revoke Token
+         * @description Revoke a token, at once and for good.
+         */
+        delete: operations["revokeToken"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/healthz": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Healthz
+         * @description Say that the process is alive.
+         */
+        get: operations["healthz"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/readyz": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Readyz
+         * @description Say that the database answers and has this version's schema.
+         */
+        get: operations["readyz"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Metrics
+         * @description Return counts in Prometheus' text format.
+         */
+        get: operations["metrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+}
+export type webhooks = Record<string, never>;
+export interface components {
+    schemas: {
+        /**
+         * AnswerPage
+         * @description Answers in the order they were given, after a cursor; `cursor` is where to go on.
+         */
+        AnswerPage: {
+            /** Queries */
+            queries: components["schemas"]["Query"][];
+            /** Cursor */
+            cursor: number;
+        };
+        /**
+         * AnswerPost
+         * @description An answer. Sending it again (same assignment, same content) returns the same receipt and costs nothing.
+         */
+        AnswerPost: {
+            /** Token */
+            token: string;
+            /** Answer */
+            answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            /** @description Lease the next query in the same call; null for none. */
+            next?: components["schemas"]["Lease"] | null;
+        };
+        /**
+         * AskHierDemo
+         * @description HierDemo(s): carry out the task from state s and return the hierarchical trajectory.
+         */
+        AskHierDemoInput: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context?: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "hier_demo";
+            /** @description s, where the demonstration starts. */
+            state: components["schemas"]["JsonValue"];
+            /**
+             * Max Segments
+             * @description H_HI: a demonstration has at most so many segments.
+             */
+            max_segments: number;
+            /**
+             * Max Actions
+             * @description H_FULL: and at most so many actions in all.
+             */
+            max_actions: number;
+        };
+        /**
+         * AskHierDemo
+         * @description HierDemo(s): carry out the task from state s and return the hierarchical trajectory.
+         */
+        AskHierDemo: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "hier_demo";
+            /** @description s, where the demonstration starts. */
+            state: components["schemas"]["JsonValue"];
+            /**
+             * Max Segments
+             * @description H_HI: a demonstration has at most so many segments.
+             */
+            max_segments: number;
+            /**
+             * Max Actions
+             * @description H_FULL: and at most so many actions in all.
+             */
+            max_actions: number;
+        };
+        /**
+         * AskInspectFull
+         * @description Inspect_FULL(tau_FULL): was the overall goal accomplished?
+         */
+        AskInspectFullInput: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context?: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "inspect_full";
+            /** Segments */
+            segments: components["schemas"]["Segment"][];
+        };
+        /**
+         * AskInspectFull
+         * @description Inspect_FULL(tau_FULL): was the overall goal accomplished?
+         */
+        AskInspectFull: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "inspect_full";
+            /** Segments */
+            segments: components["schemas"]["Segment"][];
+        };
+        /**
+         * AskInspectLo
+         * @description Inspect_LO(tau; g): did this one segment accomplish its subgoal?
+         */
+        AskInspectLoInput: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context?: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "inspect_lo";
+            /** Segments */
+            segments: components["schemas"]["Segment"][];
+        };
+        /**
+         * AskInspectLo
+         * @description Inspect_LO(tau; g): did this one segment accomplish its subgoal?
+         */
+        AskInspectLo: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "inspect_lo";
+            /** Segments */
+            segments: components["schemas"]["Segment"][];
+        };
+        /**
+         * AskLabelFull
+         * @description Label_FULL(tau_FULL): a good action at each state of the full trajectory.
+         */
+        AskLabelFullInput: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context?: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_full";
+            /** Segments */
+            segments: components["schemas"]["Segment"][];
+        };
+        /**
+         * AskLabelFull
+         * @description Label_FULL(tau_FULL): a good action at each state of the full trajectory.
+         */
+        AskLabelFull: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_full";
+            /** Segments */
+            segments: components["schemas"]["Segment"][];
+        };
+        /**
+         * AskLabelHi
+         * @description Label_HI(tau_HI): a good subgoal at the first state of each segment.
+         */
+        AskLabelHiInput: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context?: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_hi";
+            /** Segments */
+            segments: components["schemas"]["Segment"][];
+        };
+        /**
+         * AskLabelHi
+         * @description Label_HI(tau_HI): a good subgoal at the first state of each segment.
+         */
+        AskLabelHi: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_hi";
+            /** Segments */
+            segments: components["schemas"]["Segment"][];
+        };
+        /**
+         * AskLabelLo
+         * @description Label_LO(tau; g): a good action at each state of this one segment, and where it should have ended.
+         */
+        AskLabelLoInput: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context?: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_lo";
+            /** Segments */
+            segments: components["schemas"]["Segment"][];
+        };
+        /**
+         * AskLabelLo
+         * @description Label_LO(tau; g): a good action at each state of this one segment, and where it should have ended.
+         */
+        AskLabelLo: {
+            /**
+             * Episode
+             * @description Which episode of the run asks.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description Which query of that episode this is, from 0.
+             */
+            ordinal: number;
+            /**
+             * Question
+             * @description The question in words, for a person.
+             */
+            question: string;
+            /** @description The environment instance, in the domain's JSON view. */
+            instance: components["schemas"]["JsonValue"];
+            /**
+             * Context
+             * @description Segments that came before, shown but not asked about.
+             */
+            context: components["schemas"]["Segment"][];
+            /**
+             * Suggestion
+             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             */
+            suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_lo";
+            /** Segments */
+            segments: components["schemas"]["Segment"][];
+        };
+        /**
+         * AskList
+         * @description One or more queries of one run. Asking again with the same (episode, ordinal) and content changes nothing.
+         */
+        AskList: {
+            /** Queries */
+            queries: (components["schemas"]["AskHierDemoInput"] | components["schemas"]["AskInspectFullInput"] | components["schemas"]["AskLabelHiInput"] | components["schemas"]["AskInspectLoInput"] | components["schemas"]["AskLabelLoInput"] | components["schemas"]["AskLabelFullInput"])[];
+            /**
+             * Priority
+             * @description Higher is handed out first.
+             * @default 0
+             */
+            priority: number;
+        };
+        /**
+         * Asked
+         * @description The reply to `POST /runs/{id}/queries`: the queries in the order asked, old ones with their answers.
+         */
+        Asked: {
+            /** Queries */
+            queries: components["schemas"]["Query"][];
+        };
+        /**
+         * Assignment
+         * @description One query handed to one annotator under a lease. Only `token` and an unexpired lease can answer it.
+         */
+        Assignment: {
+            /** Id */
+            id: number;
+            /** Token */
+            token: string;
+            query: components["schemas"]["Query"];
+            run: components["schemas"]["Run"];
+            /** Leased At */
+            leased_at: number;
+            /** Expires At */
+            expires_at: number;
+            /** Lease Seconds */
+            lease_seconds: number;
+        };
+        /**
+         * AssignmentList
+         * @description The caller's live assignments, oldest first: what a reloaded page goes on with.
+         */
+        AssignmentList: {
+            /** Assignments */
+            assignments: components["schemas"]["Assignment"][];
+        };
+        /**
+         * CostOfKind
+         * @description The ledger's sum for one kind of query.
+         */
+        CostOfKind: {
+            /** Queries */
+            queries: number;
+            /** Units */
+            units: number;
+            /** Lo Units */
+            lo_units: number;
+            /** Seconds */
+            seconds: number;
+        };
+        /**
+         * Costs
+         * @description The ledger of a run.
+         */
+        Costs: {
+            /** Total */
+            total: number;
+            /** Lo Total */
+            lo_total: number;
+            /** Seconds */
+            seconds: number;
+            /** By Kind */
+            by_kind: {
+                [key: string]: components["schemas"]["CostOfKind"];
+            };
+            /** Reserved */
+            reserved: number;
+            /** Budget */
+            budget: number | null;
+            /**
+             * First At
+             * @description By success level: "0.8", "0.9", "0.95", "0.99".
+             */
+            first_at: {
+                [key: string]: components["schemas"]["Milestone"] | null;
+            };
+        };
+        /**
+         * Curves
+         * @description Columns of equal length, a row per reported episode; costs are cumulative up to and with that episode.
+         */
+        Curves: {
+            /** Episode */
+            episode: number[];
+            /**
+             * Success Rate
+             * @description Over the trailing 100 test episodes (fewer at the start).
+             */
+            success_rate: (number | null)[];
+            /** Test Success */
+            test_success: (boolean | null)[];
+            /** Cost */
+            cost: number[];
+            /**
+             * Lo Cost
+             * @description Units spent on LO labels: actions and terminations.
+             */
+            lo_cost: number[];
+            /**
+             * Seconds
+             * @description Annotators' seconds.
+             */
+            seconds: number[];
+            /** Cost By Kind */
+            cost_by_kind: {
+                [key: string]: number[];
+            };
+        };
+        /**
+         * DemoSegment
+         * @description One segment of a demonstration; its states follow from the actions.
+         */
+        DemoSegment: {
+            /** Subgoal */
+            subgoal: string;
+            /** Actions */
+            actions: string[];
+        };
+        /**
+         * EpisodeList
+         * @description Results to report, in episode order.
+         */
+        EpisodeList: {
+            /** Episodes */
+            episodes: components["schemas"]["EpisodeResult"][];
+        };
+        /**
+         * EpisodeResult
+         * @description What one episode brought. Reporting it again with the same content changes nothing.
+         */
+        EpisodeResult: {
+            /** Episode */
+            episode: number;
+            /**
+             * Warm Start
+             * @description Whether this was a demonstration rather than a rollout.
+             */
+            warm_start: boolean;
+            /**
+             * Train Success
+             * @description Did the training rollout succeed? Null for a demonstration.
+             */
+            train_success: boolean | null;
+            /**
+             * Test Success
+             * @description Did the test rollout on an unseen instance succeed?
+             */
+            test_success: boolean | null;
+            /** Train Steps */
+            train_steps: number;
+            /** Test Steps */
+            test_steps: number;
+            /**
+             * Hi Labels
+             * @description Size of D_HI after the episode.
+             */
+            hi_labels: number;
+            /**
+             * Lo Labels
+             * @description Size of all D_g (flat: of D) after the episode.
+             */
+            lo_labels: number;
+            /**
+             * Seconds
+             * @description The learner's wall time for the episode.
+             */
+            seconds: number;
+        };
+        /**
+         * Event
+         * @description One change of a run, as sent by server-sent events; `id` is the cursor to go on from.
+         */
+        Event: {
+            /** Id */
+            id: number;
+            /** Run */
+            run: string;
+            /**
+             * Event
+             * @enum {string}
+             */
+            event: "asked" | "answered" | "retracted" | "used" | "cancelled" | "episode" | "run";
+            /** At */
+            at: number;
+            /** Data */
+            data: {
+                [key: string]: components["schemas"]["JsonValue"];
+            };
+        };
+        /**
+         * Health
+         * @description Alive, or ready to work.
+         */
+        Health: {
+            /**
+             * Status
+             * @constant
+             */
+            status: "ok";
+            /** Version */
+            version: string;
+        };
+        /**
+         * HierDemoAnswer
+         * @description The expert's own hierarchical trajectory; each segment ends where its subgoal is reached.
+         */
+        HierDemoAnswer: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "hier_demo";
+            /** Segments */
+            segments: components["schemas"]["DemoSegment"][];
+        };
+        /**
+         * InspectAnswer
+         * @description Pass or Fail, for Inspect_FULL and Inspect_LO.
+         */
+        InspectAnswer: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "inspect_full" | "inspect_lo";
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "pass" | "fail";
+        };
+        JsonValue: unknown;
+        /**
+         * LabelFullAnswer
+         * @description a*_1 .. a*_H over the joined segments.
+         */
+        LabelFullAnswer: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_full";
+            /** Actions */
+            actions: string[];
+        };
+        /**
+         * LabelHiAnswer
+         * @description g*_1 .. g*_n: a good subgoal for each segment of the query.
+         */
+        LabelHiAnswer: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_hi";
+            /** Subgoals */
+            subgoals: string[];
+        };
+        /**
+         * LabelLoAnswer
+         * @description a*_1 .. a*_H and omega*_1 .. omega*_{H+1} of one segment with H actions.
+         *
+         *     Labels count up to the first true termination. An action may be null only there and after it: the segment should
+         *     have ended, so no action toward the subgoal is good.
+         */
+        LabelLoAnswer: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_lo";
+            /** Actions */
+            actions: (string | null)[];
+            /** Terminations */
+            terminations: boolean[];
+        };
+        /**
+         * Lease
+         * @description What an annotator is willing to take.
+         */
+        Lease: {
+            /**
+             * Wait
+             * @description Wait so long for a query, seconds.
+             * @default 0
+             */
+            wait: number;
+            /**
+             * Kinds
+             * @description Only these kinds; null for all.
+             */
+            kinds?: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full")[] | null;
+            /**
+             * Run
+             * @description Only this run; null for all.
+             */
+            run?: string | null;
+            /**
+             * Defer
+             * @description Leave a query this many seconds to other annotators who are at work and take its kind. A bot that helps people sets it; nobody else need.
+             * @default 0
+             */
+            defer: number;
+        };
+        /**
+         * Login
+         * @description A one-time code out of a login link.
+         */
+        Login: {
+            /** Code */
+            code: string;
+        };
+        /**
+         * LoginLink
+         * @description A one-time login link's code, shown once.
+         */
+        LoginLink: {
+            /** Code */
+            code: string;
+            /** Expires At */
+            expires_at: number;
+        };
+        /**
+         * Me
+         * @description Who is calling.
+         */
+        Me: {
+            /** Id */
+            id: number;
+            /** Name */
+            name: string;
+            /**
+             * Role
+             * @enum {string}
+             */
+            role: "admin" | "learner" | "annotator" | "viewer";
+            /**
+             * Answers
+             * @description Answers that counted.
+             */
+            answers: number;
+            /** Answers Today */
+            answers_today: number;
+            /** Median Seconds */
+            median_seconds: number | null;
+            /**
+             * Units
+             * @description What these answers cost, in all runs.
+             */
+            units: number;
+        };
+        /**
+         * Milestone
+         * @description When the success rate over 100 test episodes first reached a level.
+         */
+        Milestone: {
+            /** Episode */
+            episode: number;
+            /** Cost */
+            cost: number;
+        };
+        /**
+         * NewToken
+         * @description A token, shown once; the server keeps only its hash.
+         */
+        NewToken: {
+            /** Id */
+            id: number;
+            /** Token */
+            token: string;
+        };
+        /**
+         * Prices
+         * @description What one label costs, in units. The paper: Label = length of what is labeled, Inspect = 1.
+         */
+        PricesInput: {
+            /**
+             * Subgoal
+             * @description One HI label: a subgoal at a state.
+             * @default 1
+             */
+            subgoal: number;
+            /**
+             * Action
+             * @description One LO label: an action at a state.
+             * @default 1
+             */
+            action: number;
+            /**
+             * Termination
+             * @description The termination label of a segment's last state.
+             * @default 1
+             */
+            termination: number;
+            /**
+             * Inspect Full
+             * @default 1
+             */
+            inspect_full: number;
+            /**
+             * Inspect Lo
+             * @default 1
+             */
+            inspect_lo: number;
+        };
+        /**
+         * Prices
+         * @description What one label costs, in units. The paper: Label = length of what is labeled, Inspect = 1.
+         */
+        Prices: {
+            /**
+             * Subgoal
+             * @description One HI label: a subgoal at a state.
+             * @default 1
+             */
+            subgoal: number;
+            /**
+             * Action
+             * @description One LO label: an action at a state.
+             * @default 1
+             */
+            action: number;
+            /**
+             * Termination
+             * @description The termination label of a segment's last state.
+             * @default 1
+             */
+            termination: number;
+            /**
+             * Inspect Full
+             * @default 1
+             */
+            inspect_full: number;
+            /**
+             * Inspect Lo
+             * @default 1
+             */
+            inspect_lo: number;
+        };
+        /**
+         * Problem
+         * @description RFC 9457: what was wrong and what to do about it.
+         */
+        Problem: {
+            /**
+             * Type
+             * @description A stable name of the problem: `/problems/<name>`.
+             */
+            type: string;
+            /** Title */
+            title: string;
+            /** Status */
+            status: number;
+            /** Detail */
+            detail: string;
+            /** Instance */
+            instance?: string | null;
+            /**
+             * Errors
+             * @description For 422: each field at fault.
+             */
+            errors?: {
+                [key: string]: components["schemas"]["JsonValue"];
+            }[] | null;
+        };
+        /**
+         * Query
+         * @description A query as everybody sees it: what was asked, where it stands, and its answer once it has one.
+         */
+        Query: {
+            /** Id */
+            id: number;
+            /** Run */
+            run: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "open" | "leased" | "answered" | "cancelled";
+            /** Priority */
+            priority: number;
+            /** Created At */
+            created_at: number;
+            /** Ask */
+            ask: components["schemas"]["AskHierDemo"] | components["schemas"]["AskInspectFull"] | components["schemas"]["AskLabelHi"] | components["schemas"]["AskInspectLo"] | components["schemas"]["AskLabelLo"] | components["schemas"]["AskLabelFull"];
+            /** Answer */
+            answer: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /** Answer Id */
+            answer_id: number | null;
+            /**
+             * Used
+             * @description Whether the learner has used the answer; then it can be retracted no more.
+             */
+            used: boolean;
+            /**
+             * Annotator
+             * @description Who answered, or who holds it now.
+             */
+            annotator: string | null;
+            /**
+             * Units
+             * @description What the answer cost.
+             */
+            units: number | null;
+            /**
+             * Seconds
+             * @description From lease to answer, by the server's clock.
+             */
+            seconds: number | null;
+        };
+        /**
+         * QueryList
+         * @description Queries of a run, newest first; `before` the last one's id goes on.
+         */
+        QueryList: {
+            /** Queries */
+            queries: components["schemas"]["Query"][];
+        };
+        /**
+         * Receipt
+         * @description The answer is on disk and charged.
+         */
+        Receipt: {
+            /** Query */
+            query: number;
+            /** Answer */
+            answer: number;
+            /** Units */
+            units: number;
+            /** Seconds */
+            seconds: number;
+            next: components["schemas"]["Assignment"] | null;
+        };
+        /**
+         * Release
+         * @description Give a query back, unanswered.
+         */
+        Release: {
+            /** Token */
+            token: string;
+            /**
+             * Reason
+             * @description Why; "" when only making room for others.
+             * @default
+             */
+            reason: string;
+            /**
+             * Skip
+             * @description True: do not offer it to this annotator again.
+             * @default false
+             */
+            skip: boolean;
+        };
+        /**
+         * Renewal
+         * @description The lease after a heartbeat.
+         */
+        Renewal: {
+            /** Expires At */
+            expires_at: number;
+        };
+        /**
+         * Run
+         * @description A run and where its money is: `spent + reserved <= budget`, always.
+         */
+        Run: {
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Algorithm */
+            algorithm: string;
+            /** Seed */
+            seed: number;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "running" | "paused" | "finished";
+            vocabulary: components["schemas"]["Vocabulary"];
+            /** Config */
+            config: {
+                [key: string]: components["schemas"]["JsonValue"];
+            };
+            prices: components["schemas"]["Prices"];
+            /** Budget */
+            budget: number | null;
+            /**
+             * Reserved
+             * @description Units held for queries asked and not yet answered.
+             */
+            reserved: number;
+            /** Spent */
+            spent: number;
+            /** Episodes */
+            episodes: number | null;
+            /** Episodes Done */
+            episodes_done: number;
+            /**
+             * Success Rate
+             * @description Over the trailing 100 test episodes; null before the first.
+             */
+            success_rate: number | null;
+            /** Open Queries */
+            open_queries: number;
+            /** Result */
+            result: {
+                [key: string]: components["schemas"]["JsonValue"];
+            } | null;
+            /** Created At */
+            created_at: number;
+            /** Finished At */
+            finished_at: number | null;
+        };
+        /**
+         * RunCreate
+         * @description What a learner says of itself before it asks.
+         */
+        RunCreate: {
+            /** Name */
+            name: string;
+            /** Algorithm */
+            algorithm: string;
+            /** Seed */
+            seed: number;
+            vocabulary: components["schemas"]["Vocabulary"];
+            /**
+             * Config
+             * @description Every value that fixes the run.
+             */
+            config?: {
+                [key: string]: components["schemas"]["JsonValue"];
+            };
+            prices?: components["schemas"]["PricesInput"];
+            /**
+             * Budget
+             * @description Most units the run may ever cost; null for no limit.
+             */
+            budget?: number | null;
+            /**
+             * Episodes
+             * @description How many episodes are planned.
+             */
+            episodes?: number | null;
+        };
+        /**
+         * RunList
+         * @description Runs, newest first.
+         */
+        RunList: {
+            /** Runs */
+            runs: components["schemas"]["Run"][];
+        };
+        /**
+         * RunPatch
+         * @description What may change in a run; absent fields stay as they are.
+         */
+        RunPatch: {
+            /** Name */
+            name?: string | null;
+            /** State */
+            state?: ("running" | "paused" | "finished") | null;
+            /** Budget */
+            budget?: number | null;
+            /**
+             * Result
+             * @description What the learner reports at its end.
+             */
+            result?: {
+                [key: string]: components["schemas"]["JsonValue"];
+            } | null;
+        };
+        /**
+         * Segment
+         * @description One (s_h, g_h, tau_h) of the learner's hierarchical trajectory.
+         */
+        Segment: {
+            /**
+             * Subgoal
+             * @description The subgoal the learner pursued; null for a flat policy.
+             */
+            subgoal: string | null;
+            /**
+             * States
+             * @description s_1 .. s_{H+1}, in the domain's JSON view.
+             */
+            states: components["schemas"]["JsonValue"][];
+            /**
+             * Actions
+             * @description a_1 .. a_H, one fewer than the states.
+             */
+            actions: string[];
+        };
+        /**
+         * TokenCreate
+         * @description An API token for a user.
+         */
+        TokenCreate: {
+            /** User */
+            user: number;
+            /**
+             * Label
+             * @default
+             */
+            label: string;
+        };
+        /**
+         * TokenPost
+         * @description Shows that the caller holds the lease.
+         */
+        TokenPost: {
+            /** Token */
+            token: string;
+        };
+        /**
+         * User
+         * @description A user, without secrets.
+         */
+        User: {
+            /** Id */
+            id: number;
+            /** Name */
+            name: string;
+            /**
+             * Role
+             * @enum {string}
+             */
+            role: "admin" | "learner" | "annotator" | "viewer";
+            /** Created At */
+            created_at: number;
+        };
+        /**
+         * UserCreate
+         * @description A person or a program that may call.
+         */
+        UserCreate: {
+            /** Name */
+            name: string;
+            /**
+             * Role
+             * @enum {string}
+             */
+            role: "admin" | "learner" | "annotator" | "viewer";
+        };
+        /**
+         * UserList
+         * @description All users.
+         */
+        UserList: {
+            /** Users */
+            users: components["schemas"]["User"][];
+        };
+        /**
+         * Vocabulary
+         * @description A domain's names, in the order of its own numbering, and how the page draws it.
+         */
+        Vocabulary: {
+            /** Domain */
+            domain: string;
+            /**
+             * Subgoals
+             * @description Empty for a domain without subgoals.
+             */
+            subgoals: string[];
+            /** Actions */
+            actions: string[];
+            /**
+             * Renderer
+             * @description Which of the page's renderers draws its instances and states.
+             */
+            renderer: string;
+        };
+    };
+    responses: never;
+    parameters: never;
+    requestBodies: never;
+    headers: never;
+    pathItems: never;
+}
+export type $defs = Record<string, never>;
+export interface operations {
+    listRuns: {
+        parameters: {
+            query?: {
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    createRun: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RunCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Run"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRun: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Run"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    patchRun: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RunPatch"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Run"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The run is finished; The budget is too low */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    reportEpisodes: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["EpisodeList"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Run"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Already there with other content; The run is finished */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getCurves: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Curves"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getCosts: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Costs"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    streamEvents: {
+        parameters: {
+            query?: {
+                /** @description Only events past this id; absent: only new ones. */
+                after?: number | null;
+            };
+            header?: {
+                "last-event-id"?: string | null;
+            };
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Server-sent events; each `data` is an Event. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/event-stream": unknown;
+                    "application/json": components["schemas"]["Event"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listQueries: {
+        parameters: {
+            query?: {
+                state?: ("open" | "leased" | "answered" | "cancelled") | null;
+                kind?: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full") | null;
+                episode?: number | null;
+                before?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["QueryList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    ask: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AskList"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Asked"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The run's budget is exhausted */
+            402: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Already there with other content; The run is finished */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many open queries */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getQuery: {
+        parameters: {
+            query?: {
+                /** @description Wait so long for a change, seconds. */
+                wait?: number;
+            };
+            header?: never;
+            path: {
+                query: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Query"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listAnswers: {
+        parameters: {
+            query?: {
+                after?: number;
+                /** @description Wait so long for a change, seconds. */
+                wait?: number;
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AnswerPage"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    useAnswer: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                query: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Query"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not answered */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    myAssignments: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AssignmentList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    lease: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Lease"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Assignment"];
+                };
+            };
+            /** @description Nothing to do within `wait` seconds. */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    answer: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Names this attempt; sending the same again returns the same receipt. */
+                "Idempotency-Key"?: string | null;
+            };
+            path: {
+                assignment: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AnswerPost"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Receipt"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Another annotator's assignment; Not the token of this assignment */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The lease has expired; The assignment has ended; The query was cancelled; The answer was taken back; Already there with other content; Idempotency-Key already used */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    renew: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                assignment: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TokenPost"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Renewal"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Another annotator's assignment; Not the token of this assignment */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The lease has expired; The assignment has ended */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    release: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                assignment: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Release"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Another annotator's assignment; Not the token of this assignment */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The lease has expired; The assignment has ended */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    retract: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                assignment: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TokenPost"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Assignment"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The run's budget is exhausted */
+            402: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Another annotator's assignment; Not the token of this assignment */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The assignment has ended; The learner has used the answer; The answer was taken back; The run is finished */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    login: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Login"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Me"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many attempts */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    logout: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    me: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Me"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listUsers: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UserList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    createUser: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["UserCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["User"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The name is taken */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    createLoginLink: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LoginLink"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    createToken: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TokenCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NewToken"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    revokeToken: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                token: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    healthz: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Health"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    readyz: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Health"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    metrics: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+}

@@ -1,0 +1,157 @@
+import type { AnswerableKind, Vocabulary } from '../api/types';
+
+/** What a key can do. `choose:2` sets the third subgoal or action of the vocabulary. */
+export type Command =
+  | 'help'
+  | 'pass'
+  | 'fail'
+  | 'accept'
+  | 'accept-rest'
+  | 'done'
+  | 'not-done'
+  | 'first-wrong'
+  | 'clear'
+  | 'previous-segment'
+  | 'next-segment'
+  | 'skip'
+  | 'undo'
+  | 'play'
+  | 'back'
+  | 'forward'
+  | 'back-5'
+  | 'forward-5'
+  | 'start'
+  | 'end'
+  | 'previous-stop'
+  | 'next-stop'
+  | 'slower'
+  | 'faster'
+  | `choose:${number}`;
+
+export interface Binding {
+  readonly command: Command;
+  readonly keys: readonly string[]; // as `keyOf` names them; the first one is printed on the button
+  readonly label: string;
+  readonly group: Group;
+  readonly once?: true; // ignored while the key repeats
+}
+type Group = 'Answer' | 'Player' | 'Task' | 'Page';
+
+export type Mode = AnswerableKind | 'waiting';
+
+/** The one list of keys: all that a mode answers to. A subgoal's or action's own key goes before a general one. */
+export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[] {
+  const choices = vocabulary === null ? [] : choiceBindings(mode, vocabulary);
+  const taken = new Set(choices.flatMap((binding) => binding.keys));
+  const rest = [...answerBindings(mode), ...(mode === 'waiting' ? [UNDO] : [...TASK, ...PLAYER]), HELP];
+  const free = rest.map((binding) => ({
+    ...binding,
+    keys: binding.keys.filter((key) => !taken.has(key)),
+  }));
+  return [...choices, ...free.filter((binding) => binding.keys.length > 0)];
+}
+
+/** Keys that would do two things. */
+export function collisions(bindings: readonly Binding[]): string[] {
+  const keys = bindings.flatMap((binding) => binding.keys);
+  return [...new Set(keys.filter((key, index) => keys.indexOf(key) !== index))];
+}
+
+const HELP: Binding = { command: 'help', keys: ['?'], label: 'Show every key', group: 'Page', once: true };
+const UNDO: Binding = { command: 'undo', keys: ['u'], label: 'Undo my last answer', group: 'Task', once: true };
+
+const TASK: readonly Binding[] = [
+  { command: 'skip', keys: ['s', 'Shift+s'], label: 'Skip, with a reason', group: 'Task', once: true },
+  UNDO,
+];
+
+const PLAYER: readonly Binding[] = [
+  { command: 'play', keys: [' '], label: 'Play or pause', group: 'Player', once: true },
+  { command: 'back', keys: ['ArrowLeft', ','], label: 'One step back', group: 'Player' },
+  { command: 'forward', keys: ['ArrowRight', '.'], label: 'One step on', group: 'Player' },
+  { command: 'back-5', keys: ['Shift+ArrowLeft'], label: 'Five steps back', group: 'Player' },
+  { command: 'forward-5', keys: ['Shift+ArrowRight'], label: 'Five steps on', group: 'Player' },
+  { command: 'start', keys: ['Home'], label: 'To the start', group: 'Player' },
+  { command: 'end', keys: ['End'], label: 'To the end', group: 'Player' },
+  { command: 'previous-stop', keys: ['['], label: 'To the subgoal before', group: 'Player' },
+  { command: 'next-stop', keys: [']'], label: 'To the next subgoal', group: 'Player' },
+  { command: 'slower', keys: ['-'], label: 'Slower', group: 'Player' },
+  { command: 'faster', keys: ['=', '+'], label: 'Faster', group: 'Player' },
+];
+
+const ACCEPT: readonly Binding[] = [
+  { command: 'accept', keys: ['Enter'], label: "Keep the learner's choice; at the end, submit", group: 'Answer', once: true },
+  { command: 'accept-rest', keys: ['Shift+Enter'], label: "Keep all the learner's other choices and submit", group: 'Answer', once: true },
+  { command: 'clear', keys: ['Backspace'], label: 'Take back the last label', group: 'Answer' },
+];
+
+function answerBindings(mode: Mode): readonly Binding[] {
+  switch (mode) {
+    case 'inspect_full':
+    case 'inspect_lo':
+      return [
+        { command: 'pass', keys: ['p'], label: 'Pass', group: 'Answer', once: true },
+        { command: 'fail', keys: ['f'], label: 'Fail', group: 'Answer', once: true },
+      ];
+    case 'label_hi':
+      return [
+        ...ACCEPT,
+        { command: 'previous-segment', keys: ['ArrowUp'], label: 'Segment before', group: 'Answer' },
+        { command: 'next-segment', keys: ['ArrowDown'], label: 'Next segment', group: 'Answer' },
+      ];
+    case 'label_lo':
+      return [
+        ...ACCEPT,
+        { command: 'first-wrong', keys: ['x'], label: 'First wrong step: all before it are right', group: 'Answer', once: true },
+        { command: 'done', keys: ['d'], label: 'Done here: the segment should end at this state', group: 'Answer', once: true },
+        { command: 'not-done', keys: ['n'], label: 'Not done, even at the last state', group: 'Answer', once: true },
+      ];
+    case 'label_full':
+      return [
+        ...ACCEPT,
+        { command: 'first-wrong', keys: ['x'], label: 'First wrong step: all before it are right', group: 'Answer', once: true },
+      ];
+    case 'waiting':
+      return [];
+  }
+}
+
+const ARROWS: Readonly<Record<string, string>> = {
+  up: 'ArrowUp',
+  down: 'ArrowDown',
+  left: 'ArrowLeft',
+  right: 'ArrowRight',
+};
+const DIGITS = '1234567890';
+
+function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
+  if (mode === 'label_hi') {
+    const reserved = new Set([...answerBindings(mode), UNDO, HELP].flatMap((binding) => binding.keys));
+    const initials = vocabulary.subgoals.map((name) => initial(name).toLowerCase());
+    return vocabulary.subgoals.map((name, index) => {
+      const letter = initials[index] ?? '';
+      const unique = initials.indexOf(letter) === initials.lastIndexOf(letter);
+      return choice(name, index, unique && /^[a-z]$/.test(letter) && !reserved.has(letter) ? letter : undefined);
+    });
+  }
+  if (mode === 'label_lo' || mode === 'label_full') {
+    return vocabulary.actions.map((name, index) => choice(name, index, ARROWS[name.toLowerCase()]));
+  }
+  return [];
+}
+
+function choice(name: string, index: number, key: string | undefined): Binding {
+  const digit = DIGITS[index];
+  const keys = [key, digit].filter((one) => one !== undefined);
+  return { command: `choose:${index}`, keys, label: readable(name), group: 'Answer' };
+}
+
+/** "go_to_target" is read "go to target". */
+export function readable(name: string): string {
+  return name.replaceAll('_', ' ');
+}
+
+/** The letter a subgoal goes by: N for north, T for go_to_target. */
+export function initial(name: string): string {
+  return name.replace(/^(go_)?to_/i, '').charAt(0).toUpperCase();
+}

@@ -1,0 +1,23 @@
+const NAMES = ['floor', 'grid', 'door', 'lava', 'target', 'agent', 'agent-edge', 'label', 'label-edge', 'marker-text'] as const;
+type Name = (typeof NAMES)[number];
+
+/** The colors of the map, read from the style sheet, so that they are written down once. */
+export interface Palette {
+  readonly map: Readonly<Record<Name, string>>;
+  readonly subgoals: readonly string[];
+}
+
+export const SUBGOAL_COLORS = 8;
+
+export function readPalette(element: Element): Palette {
+  const probe = document.createElement('span');
+  element.append(probe);
+  const read = (name: string): string => {
+    probe.style.color = `var(--${name})`;
+    return getComputedStyle(probe).color;
+  };
+  const map = Object.fromEntries(NAMES.map((name) => [name, read(`map-${name}`)])) as Record<Name, string>;
+  const subgoals = Array.from({ length: SUBGOAL_COLORS }, (_, index) => read(`subgoal-${index}`));
+  probe.remove();
+  return { map, subgoals };
+}
