@@ -56,7 +56,10 @@ def allow(roles: frozenset[Role]) -> Callable[..., Coroutine[Any, Any, Caller]]:
     """Return a dependency that lets only these roles in; a cookie also needs a request from the page itself."""
 
     async def check(
-        request: Request, context: Ctx, _token: Annotated[Any, Depends(_bearer)], _session: Annotated[Any, Depends(_cookie)]
+        request: Request,
+        context: Ctx,
+        _token: Annotated[Any, Depends(_bearer)],
+        _session: Annotated[Any, Depends(_cookie)],
     ) -> Caller:
         caller = await authenticate(request, context)
         if caller.by_cookie and request.method not in {"GET", "HEAD"}:

@@ -108,9 +108,7 @@ def _accept(tx: Tx, post: Post, case: Case, wish: queue.Wish | None) -> wire.Rec
     """Store, charge and close."""
     cost = kinds.cost(post.answer, wire.Prices.model_validate_json(case.run.prices))
     stored = _store(tx, post, case, case.query.revision, cost)
-    entry = Entry(
-        case.run.id, case.query.id, stored.id, case.query.kind, case.query.episode, cost, stored.seconds
-    )
+    entry = Entry(case.run.id, case.query.id, stored.id, case.query.kind, case.query.episode, cost, stored.seconds)
     money.charge(tx, entry, case.query.reserve)
     tx.conn.execute(
         update(assignments).where(assignments.c.id == case.held.id).values(state="answered", ended_at=tx.now)
@@ -174,9 +172,7 @@ def retract(tx: Tx, assignment: int, user: int, token: str, settings: Settings) 
         raise errors.AnswerUsed("The learner has trained on this answer; it can be taken back no more.")
     if run.state == "finished":
         raise errors.RunFinished("The run is finished; its answers stay.")
-    charged = tx.conn.execute(
-        select(ledger).where(ledger.c.answer_id == given.id, ledger.c.entry == "charge")
-    ).one()
+    charged = tx.conn.execute(select(ledger).where(ledger.c.answer_id == given.id, ledger.c.entry == "charge")).one()
     cost = Cost(charged.units, charged.lo_units)
     entry = Entry(run.id, query.id, given.id, query.kind, query.episode, cost, charged.seconds)
     money.refund(tx, entry, runs.account(run), query.reserve)

@@ -44,7 +44,9 @@ def _ledger(tx: Tx, run: str) -> list[Spent]:
     signed = func.sum(ledger.c.units)
     charges = func.count().filter(ledger.c.entry == "charge") - func.count().filter(ledger.c.entry == "refund")
     rows = tx.conn.execute(
-        select(ledger.c.episode, ledger.c.kind, charges, signed, func.sum(ledger.c.lo_units), func.sum(ledger.c.seconds))
+        select(
+            ledger.c.episode, ledger.c.kind, charges, signed, func.sum(ledger.c.lo_units), func.sum(ledger.c.seconds)
+        )
         .where(ledger.c.run_id == run)
         .group_by(ledger.c.episode, ledger.c.kind)
         .order_by(ledger.c.episode)

@@ -34,12 +34,12 @@ class clock(FunctionElement[float]):  # noqa: N801 - a SQL function
 
 
 @compiles(clock, "sqlite")
-def _sqlite_clock(element: Any, compiler: Any, **kwargs: Any) -> str:
+def _sqlite_clock(*_: Any, **_options: Any) -> str:
     return "((julianday('now') - 2440587.5) * 86400.0)"
 
 
 @compiles(clock, "postgresql")
-def _postgresql_clock(element: Any, compiler: Any, **kwargs: Any) -> str:
+def _postgresql_clock(*_: Any, **_options: Any) -> str:
     return "CAST(extract(epoch FROM clock_timestamp()) AS double precision)"
 
 
@@ -66,7 +66,7 @@ class Tx:
         self.topics.update(topics)
 
 
-class BadDatabase(Exception):
+class BadDatabase(Exception):  # noqa: N818 - says what it is
     """The database URL cannot be used; the message says why and what to do."""
 
 
@@ -87,8 +87,9 @@ class Database:
             self._engine.dispose()
             raise
         self._readers = ThreadPoolExecutor(READERS, "waypost-read")
-        writer: type[Writer] = GroupCommit if lite else CommittingThreads
-        self._writer = writer(self._engine, committed, WRITERS)
+        self._writer: Writer = (
+            GroupCommit(self._engine, committed) if lite else CommittingThreads(self._engine, committed, WRITERS)
+        )
 
     def write_now(self, work: Callable[[Tx], T]) -> T:
         """Run a unit of work and return its result once it is on disk."""
@@ -144,7 +145,10 @@ def _first_line(error: DBAPIError) -> str:
 
 def _sqlite(url: URL, *, writes: bool) -> Engine:
     engine = create_engine(
-        url, pool_size=1 if writes else READERS, max_overflow=0, connect_args={"check_same_thread": False, "timeout": 15}
+        url,
+        pool_size=1 if writes else READERS,
+        max_overflow=0,
+        connect_args={"check_same_thread": False, "timeout": 15},
     )
 
     @event.listens_for(engine, "connect")

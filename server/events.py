@@ -3,6 +3,7 @@
 import asyncio
 import json
 from collections.abc import AsyncIterator, Mapping
+from functools import partial
 from typing import Any
 
 from fastapi import Request
@@ -50,8 +51,7 @@ async def stream(context: Context, request: Request, run: str, cursor: int) -> A
     yield "retry: 1000\n\n"
     while not context.hub.closed and not await request.is_disconnected():
         changed = context.hub.watch(topic(run))
-        position = cursor
-        found = await context.db.read(lambda tx: after(tx, run, position))
+        found = await context.db.read(partial(after, run=run, cursor=cursor))
         for event in found:
             yield f"id: {event.id}\nevent: {event.event}\ndata: {event.model_dump_json()}\n\n"
             cursor = event.id

@@ -41,6 +41,7 @@ class Guard:
         self._body_seconds = body_seconds
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Refuse, or pass on with the body read and the headers set."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return

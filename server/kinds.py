@@ -81,14 +81,12 @@ class QueryKind(ABC, Generic[AskT, AnswerT]):
 class HierDemo(QueryKind[wire.AskHierDemo, wire.HierDemoAnswer]):
     """Costs the HI and LO labels the demonstration yields."""
 
-    def check_ask(self, ask: Any, words: Words, at: Location) -> None:
+    def check_ask(self, ask: Any, words: Words, at: Location) -> None:  # noqa: ARG002
         """A demonstration names subgoals, so the run must have some."""
         if not words.subgoals:
             raise Unprocessable([*at, "kind"], "a run without subgoals cannot ask for a hierarchical demonstration")
 
-    def check_answer(
-        self, ask: wire.AskHierDemo, answer: wire.HierDemoAnswer, words: Words, at: Location
-    ) -> None:
+    def check_answer(self, ask: wire.AskHierDemo, answer: wire.HierDemoAnswer, words: Words, at: Location) -> None:
         """At most H_HI segments and H_FULL actions, all in the run's names."""
         if len(answer.segments) > ask.max_segments:
             raise Unprocessable([*at, "segments"], f"has {len(answer.segments)} segments; at most {ask.max_segments}")
@@ -195,9 +193,7 @@ class LabelLo(QueryKind[wire.AskLabelLo, wire.LabelLoAnswer]):
 class LabelFull(QueryKind[wire.AskLabelFull, wire.LabelFullAnswer]):
     """Costs each state's action."""
 
-    def check_answer(
-        self, ask: wire.AskLabelFull, answer: wire.LabelFullAnswer, words: Words, at: Location
-    ) -> None:
+    def check_answer(self, ask: wire.AskLabelFull, answer: wire.LabelFullAnswer, words: Words, at: Location) -> None:
         """One action per action of the joined segments."""
         check_length(answer.actions, n_actions_of(ask.segments), [*at, "actions"], "actions")
         words.check_actions(answer.actions, [*at, "actions"])

@@ -28,13 +28,15 @@ def text(tx: Tx) -> str:
     ).one()
     kept = (('kind="counted"', given[0]), ('kind="late"', given[1]))
     lines += _metric("waypost_answers_total", "counter", "Answers stored.", kept)
-    units = tx.conn.execute(
-        select(ledger.c.kind, func.sum(ledger.c.units)).group_by(ledger.c.kind)
-    ).all()
+    units = tx.conn.execute(select(ledger.c.kind, func.sum(ledger.c.units)).group_by(ledger.c.kind)).all()
     costs = ((f'kind="{kind}"', to_units(int(micro))) for kind, micro in units)
     lines += _metric("waypost_cost_units", "gauge", "Units in the ledger.", costs)
     return "\n".join(lines) + "\n"
 
 
 def _metric(name: str, kind: str, what: str, values: Iterable[tuple[str, float]]) -> list[str]:
-    return [f"# HELP {name} {what}", f"# TYPE {name} {kind}", *(f"{name}{{{label}}} {value}" for label, value in values)]
+    return [
+        f"# HELP {name} {what}",
+        f"# TYPE {name} {kind}",
+        *(f"{name}{{{label}}} {value}" for label, value in values),
+    ]

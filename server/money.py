@@ -114,7 +114,5 @@ def _write(tx: Tx, kind: str, entry: Entry, sign: int) -> None:
 
 def _change(tx: Tx, run: str, spent: int, reserved: int) -> None:
     tx.conn.execute(
-        update(runs)
-        .where(runs.c.id == run)
-        .values(spent=runs.c.spent + spent, reserved=runs.c.reserved + reserved)
+        update(runs).where(runs.c.id == run).values(spent=runs.c.spent + spent, reserved=runs.c.reserved + reserved)
     )

@@ -49,9 +49,7 @@ def create_user(tx: Tx, name: str, role: wire.Role) -> wire.User:
     """Create a user."""
     try:
         with tx.conn.begin_nested():
-            row = tx.conn.execute(
-                insert(users).values(name=name, role=role, created_at=tx.now).returning(users)
-            ).one()
+            row = tx.conn.execute(insert(users).values(name=name, role=role, created_at=tx.now).returning(users)).one()
     except IntegrityError:
         raise errors.NameTaken(f"There is a user named {name!r}; choose another name.") from None
     return wire.User(id=row.id, name=row.name, role=row.role, created_at=row.created_at)
@@ -80,9 +78,7 @@ def _issue(tx: Tx, user: int, kind: CredentialKind, label: str, seconds: float |
     expires_at = None if seconds is None else tx.now + seconds
     row = tx.conn.execute(
         insert(credentials)
-        .values(
-            user_id=user, kind=kind, hash=hashed(secret), label=label, created_at=tx.now, expires_at=expires_at
-        )
+        .values(user_id=user, kind=kind, hash=hashed(secret), label=label, created_at=tx.now, expires_at=expires_at)
         .returning(credentials.c.id)
     ).one()
     return Secret(row.id, user, secret, expires_at)
@@ -168,9 +164,7 @@ def me(tx: Tx, user: int) -> wire.Me:
             func.count().filter(counted.c.created_at >= tx.now - tx.now % DAY),
         ).select_from(counted)
     ).one()
-    recent = tx.conn.execute(
-        select(counted.c.seconds).order_by(counted.c.id.desc()).limit(RECENT)
-    ).scalars().all()
+    recent = tx.conn.execute(select(counted.c.seconds).order_by(counted.c.id.desc()).limit(RECENT)).scalars().all()
     return wire.Me(
         id=who.id,
         name=who.name,

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Row, Select, exists, insert, not_, or_, select, update
+from sqlalchemy import Select, exists, insert, not_, or_, select, update
 from sqlalchemy.sql.elements import ColumnElement
 
 from server import errors, live, presence, queries, runs, wire
@@ -91,7 +91,7 @@ def _take(tx: Tx, wish: Wish) -> int | None:
         return None
     last = _last_answered(tx, wish.user)
     if last is not None:
-        same = offered.where(query_table.c.run_id == last.run_id, query_table.c.episode == last.episode)
+        same = offered.where(query_table.c.run_id == last[0], query_table.c.episode == last[1])
         follow_up = tx.conn.execute(same.where(query_table.c.priority >= first.priority).limit(1)).one_or_none()
         first = follow_up or first
     # On PostgreSQL others may be taking the same: lock it, or whichever is next and free.
@@ -125,14 +125,16 @@ def _offered(tx: Tx, wish: Wish) -> Select[Any]:
     return offered
 
 
-def _last_answered(tx: Tx, user: int) -> Row[Any] | None:
-    return tx.conn.execute(
+def _last_answered(tx: Tx, user: int) -> tuple[str, int] | None:
+    """Return the run and episode this annotator answered last."""
+    row = tx.conn.execute(
         select(query_table.c.run_id, query_table.c.episode)
         .join(answers, answers.c.query_id == query_table.c.id)
         .where(answers.c.user_id == user)
         .order_by(answers.c.id.desc())
         .limit(1)
     ).one_or_none()
+    return None if row is None else (row.run_id, row.episode)
 
 
 def expire(tx: Tx) -> int:
@@ -246,9 +248,7 @@ def granted_after(tx: Tx, assignment: int) -> wire.Assignment | None:
     """Return the live assignment that the reply to an earlier answer handed out."""
     one = tx.conn.execute(
         select(assignments.c.id)
-        .where(
-            assignments.c.after_id == assignment, assignments.c.state == "live", assignments.c.expires_at > tx.now
-        )
+        .where(assignments.c.after_id == assignment, assignments.c.state == "live", assignments.c.expires_at > tx.now)
         .order_by(assignments.c.id.desc())
         .limit(1)
     ).scalar_one_or_none()

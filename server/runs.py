@@ -192,17 +192,13 @@ def _new_state(tx: Tx, row: Row[Any], state: wire.RunState) -> dict[str, Any]:
 
 def _cancel_open(tx: Tx, run: str) -> None:
     """Cancel what is not answered and release what was reserved for it."""
-    waiting = select(queries.c.id, queries.c.reserve).where(
-        queries.c.run_id == run, queries.c.state.in_(UNANSWERED)
-    )
+    waiting = select(queries.c.id, queries.c.reserve).where(queries.c.run_id == run, queries.c.state.in_(UNANSWERED))
     rows = tx.conn.execute(waiting.with_for_update()).all()
     if not rows:
         return
     ids = select(queries.c.id).where(queries.c.run_id == run, queries.c.state == "cancelled")
     tx.conn.execute(
-        update(queries)
-        .where(queries.c.run_id == run, queries.c.state.in_(UNANSWERED))
-        .values(state="cancelled")
+        update(queries).where(queries.c.run_id == run, queries.c.state.in_(UNANSWERED)).values(state="cancelled")
     )
     tx.conn.execute(
         update(assignments)

@@ -1,4 +1,7 @@
-"""The tables: every state the store can be in, as types and constraints. Money is whole micro-units, so sums are exact."""
+"""The tables: every state the store can be in, as types and constraints.
+
+Money is whole micro-units, so that sums are exact.
+"""
 
 from sqlalchemy import (
     BigInteger,
@@ -106,10 +109,10 @@ queries = Table(
     Column("reserve", BigInteger, nullable=False),
     Column("revision", Integer, nullable=False),
     Column("answer_id", RowId, ForeignKey("answers.id", use_alter=True), unique=True),
-    Column("used", Boolean(create_constraint=True), nullable=False),
+    Column("used", Boolean, nullable=False),
     Column("created_at", Float, nullable=False),
     one_of("kind", *KIND_WORDS),
-    # open -> leased -> answered | cancelled; leased -> open when given back or expired; answered -> leased by retraction.
+    # open -> leased -> answered | cancelled; leased -> open: given back or expired; answered -> leased: retracted.
     one_of("state", "open", "leased", "answered", "cancelled"),
     CheckConstraint("(state = 'answered') = (answer_id IS NOT NULL)", name="answered"),
     CheckConstraint("NOT used OR state = 'answered'", name="used_is_answered"),
@@ -117,7 +120,13 @@ queries = Table(
     UniqueConstraint("run_id", "episode", "ordinal"),
     sqlite_autoincrement=True,
 )
-Index("ix_queries_next", queries.c.priority.desc(), queries.c.id, sqlite_where=text("state = 'open'"), postgresql_where=text("state = 'open'"))
+Index(
+    "ix_queries_next",
+    queries.c.priority.desc(),
+    queries.c.id,
+    sqlite_where=text("state = 'open'"),
+    postgresql_where=text("state = 'open'"),
+)
 Index("ix_queries_run_state", queries.c.run_id, queries.c.state, queries.c.id)
 
 assignments = Table(
@@ -129,7 +138,7 @@ assignments = Table(
     # Fences one lease; worthless without its owner's login, so it is kept as it is.
     Column("token", Text, nullable=False),
     Column("state", Text, nullable=False),
-    Column("deferring", Boolean(create_constraint=True), nullable=False),
+    Column("deferring", Boolean, nullable=False),
     # The assignment whose answer's reply handed this one out.
     Column("after_id", RowId, ForeignKey("assignments.id"), index=True),
     Column("reason", Text),
@@ -187,7 +196,8 @@ ledger = Table(
     one_of("kind", *KIND_WORDS),
     UniqueConstraint("answer_id", "entry"),
     CheckConstraint(
-        "entry = 'charge' AND lo_units >= 0 AND units >= lo_units OR entry = 'refund' AND lo_units <= 0 AND units <= lo_units",
+        "(entry = 'charge' AND lo_units >= 0 AND units >= lo_units) OR "
+        "(entry = 'refund' AND lo_units <= 0 AND units <= lo_units)",
         name="sign",
     ),
     Index("ix_ledger_run", "run_id", "episode", "kind"),
@@ -216,7 +226,7 @@ episodes = Table(
     metadata,
     Column("run_id", Text, ForeignKey("runs.id"), primary_key=True),
     Column("episode", Integer, primary_key=True),
-    Column("test_success", Boolean(create_constraint=True)),
+    Column("test_success", Boolean),
     Column("result", Text, nullable=False),
     Column("created_at", Float, nullable=False),
 )

@@ -26,8 +26,6 @@ RETRIED = {"40001", "40P01"}  # serialization failure, deadlock
 class Writer(Protocol):
     """Runs units of work, each all or nothing."""
 
-    def __init__(self, engine: Engine, committed: Callable[[Topics], None], threads: int) -> None: ...
-
     def submit(self, work: Work[T]) -> Future[T]:
         """Queue a unit of work; the future resolves after its commit."""
         ...
@@ -52,7 +50,7 @@ class GroupCommit:
     one, and an answer is still acknowledged only after the sync.
     """
 
-    def __init__(self, engine: Engine, committed: Callable[[Topics], None], threads: int) -> None:
+    def __init__(self, engine: Engine, committed: Callable[[Topics], None]) -> None:
         self._engine = engine
         self._committed = committed
         self._jobs: SimpleQueue[Job | None] = SimpleQueue()

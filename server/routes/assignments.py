@@ -47,9 +47,7 @@ async def my_assignments(context: Ctx, caller: AnnotatorCalls) -> wire.Assignmen
 @router.post(
     "/{assignment}/answer",
     operation_id="answer",
-    responses=refusals(
-        *HELD, errors.QueryCancelled, errors.AnswerRetracted, errors.DifferentContent, errors.KeyReused
-    ),
+    responses=refusals(*HELD, errors.QueryCancelled, errors.AnswerRetracted, errors.DifferentContent, errors.KeyReused),
 )
 async def answer(
     assignment: AssignmentId,

@@ -66,7 +66,7 @@ async def list_answers(
     wait: Seconds = 0,
     limit: Annotated[int, Query(ge=1, le=500)] = 100,
 ) -> wire.AnswerPage:
-    """Return the queries answered after a cursor, in the order of their answers; with `wait`, as soon as there is one."""
+    """Return the queries answered after a cursor, in the order of the answers; with `wait`, as soon as there is one."""
     return await waiting.until(
         context,
         request,
@@ -77,9 +77,7 @@ async def list_answers(
     )
 
 
-@router.post(
-    "/queries/{query}/use", operation_id="useAnswer", responses=refusals(errors.NotFound, errors.NotAnswered)
-)
+@router.post("/queries/{query}/use", operation_id="useAnswer", responses=refusals(errors.NotFound, errors.NotAnswered))
 async def use_answer(query: queries.QueryId, context: Ctx, _: LearnerCalls) -> wire.Query:
     """Mark the answer as used: from now on it can be retracted no more."""
     return await context.db.write(lambda tx: queries.use(tx, query))

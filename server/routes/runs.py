@@ -21,9 +21,7 @@ async def create_run(body: wire.RunCreate, context: Ctx, caller: LearnerCalls) -
 
 
 @router.get("", operation_id="listRuns")
-async def list_runs(
-    context: Ctx, _: AnyoneCalls, limit: Annotated[int, Query(ge=1, le=1_000)] = 200
-) -> wire.RunList:
+async def list_runs(context: Ctx, _: AnyoneCalls, limit: Annotated[int, Query(ge=1, le=1_000)] = 200) -> wire.RunList:
     """List runs, newest first."""
     return await context.db.read(lambda tx: runs.newest(tx, limit))
 
@@ -69,14 +67,22 @@ async def get_costs(run: str, context: Ctx, _: AnyoneCalls) -> wire.Costs:
     operation_id="streamEvents",
     response_class=StreamingResponse,
     responses=refusals(errors.NotFound)
-    | {200: {"model": wire.Event, "description": "Server-sent events; each `data` is an Event.", "content": {"text/event-stream": {}}}},
+    | {
+        200: {
+            "model": wire.Event,
+            "description": "Server-sent events; each `data` is an Event.",
+            "content": {"text/event-stream": {}},
+        }
+    },
 )
 async def stream_events(
     run: str,
     request: Request,
     context: Ctx,
     _: AnyoneCalls,
-    after: Annotated[int | None, Query(ge=0, le=2**63 - 1, description="Only events past this id; absent: only new ones.")] = None,
+    after: Annotated[
+        int | None, Query(ge=0, le=2**63 - 1, description="Only events past this id; absent: only new ones.")
+    ] = None,
     last_event_id: Annotated[str | None, Header(max_length=20)] = None,
 ) -> StreamingResponse:
     """Stream what happens in a run, from a cursor on."""
