@@ -1,8 +1,11 @@
 """A learner: policies, the data they learn from, and rollouts under them."""
 
+import os
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
+import torch
 
 from learner.datasets import Dataset, Labels
 from learner.domains.base import Domain
@@ -19,13 +22,19 @@ TRAIN, TEST = 0, 1
 class Learner:
     """mu and one pi_g with beta_g per subgoal, or one flat policy; and D_HI and D_g, or D."""
 
-    def __init__(self, domain: Domain, preset: Preset, seed: int, flat: bool = False) -> None:
+    def __init__(
+        self, domain: Domain, preset: Preset, seed: int, flat: bool = False, threads: int | None = None
+    ) -> None:
         self.domain, self.preset, self.seed, self.flat = domain, preset, seed, flat
         self.simulator = Simulator(domain)
         keys = [FLAT] if flat else [META, *range(len(domain.subgoals))]
         self.policies = {key: self._policy(key) for key in keys}
         self.data = {key: Dataset(domain.observation_shape) for key in keys}
         self._episode = 0
+        # One thread a policy: small networks gain nothing from threads within one operation. What each policy learns
+        # depends on its own data and generator, so the number of threads changes nothing but the time.
+        torch.set_num_threads(1)
+        self._threads = ThreadPoolExecutor(threads or os.cpu_count(), initializer=torch.set_num_threads, initargs=(1,))
 
     def _policy(self, key: PolicyKey) -> Policy:
         choices = len(self.domain.subgoals if key == META else self.domain.actions)
@@ -50,8 +59,8 @@ class Learner:
         return roll_out(simulator, instance, self.preset.choosing, rng)
 
     def learn(self, labels: Labels) -> None:
-        """Append to the data buffers, then Train every policy."""
-        for key, rows in labels.rows.items():
-            self.data[key].append(rows)
-        for key, policy in self.policies.items():
-            policy.train(self.data[key])
+        """Append to the data buffers, then Train the policies whose buffer grew (docs/paper.md, deviation 6)."""
+        grown = [key for key, rows in labels.rows.items() if rows]
+        for key in grown:
+            self.data[key].append(labels.rows[key])
+        list(self._threads.map(lambda key: self.policies[key].train(self.data[key]), grown))

@@ -21,7 +21,7 @@ class TrainSpec:
     """How Train works."""
 
     learning_rate: float = 5e-4
-    batch: int = 64
+    batch: int = 32
     samples_per_round: int = 4096  # at most; a smaller buffer is passed over once
     bf16: bool = True  # mixed precision where the processor has bf16 arithmetic
 
@@ -47,10 +47,9 @@ class Policy:
         seed: int,
     ) -> None:
         self.choices, self.terminates, self.spec = choices, terminates, train
-        torch.manual_seed(seed)  # for the initial weights
-        self.network = ConvNet(observation_shape, choices + int(terminates), network)
+        self.rng = torch.Generator().manual_seed(seed)
+        self.network = ConvNet(observation_shape, choices + int(terminates), network, self.rng)
         self.optimizer = torch.optim.Adam(self.network.parameters(), lr=train.learning_rate, fused=True)
-        self._rng = torch.Generator().manual_seed(seed)
         self._bf16 = train.bf16 and torch.ops.mkldnn._is_mkldnn_bf16_supported()
         self.network.eval()
 
@@ -65,15 +64,14 @@ class Policy:
         """Train(policy, D): one pass over the data in random order, at most `samples_per_round` rows of it."""
         if not len(data):
             return
-        torch.manual_seed(int(torch.randint(2**62, (), generator=self._rng)))  # for dropout
-        order = torch.randperm(len(data), generator=self._rng)[: self.spec.samples_per_round]
+        order = torch.randperm(len(data), generator=self.rng)[: self.spec.samples_per_round]
         self.network.train()
-        for rows in order.split(self.spec.batch):
+        for rows in torch.split(order, self.spec.batch):
             with torch.autocast("cpu", torch.bfloat16, enabled=self._bf16):
                 out = self.network(data.observations[rows].contiguous(memory_format=torch.channels_last))
             loss = self._loss(out.float(), data.labels[rows])
             self.optimizer.zero_grad()
-            loss.backward()
+            torch.autograd.backward(loss)
             self.optimizer.step()
         self.network.eval()
 

@@ -77,7 +77,7 @@ class Translator:
             case LabelLo(segment, before):
                 return wire.AskLabelLo(
                     kind="label_lo",
-                    question=f"Which action was right in each state toward “{self._words(segment)}”, and where is it done?",
+                    question=f"Which action was right in each state toward “{self._words(segment)}”?",
                     segments=self._segments([segment]),
                     context=self._segments(before),
                     suggestion=wire.LabelLoAnswer(

@@ -8,7 +8,7 @@ from learner.rollout import Choosing
 PAPER = Preset(
     warm_start=200,
     network=ConvSpec(channels=(32, 64), hidden=256, dropout=0.5),
-    train_hi=TrainSpec(learning_rate=5e-4, batch=64, samples_per_round=4096),
-    train_lo=TrainSpec(learning_rate=5e-4, batch=64, samples_per_round=512),
+    train_hi=TrainSpec(learning_rate=5e-4, batch=32, samples_per_round=4096),
+    train_lo=TrainSpec(learning_rate=5e-4, batch=32, samples_per_round=512),
     choosing=Choosing(temperature=0.1, termination_threshold=0.9),
 )

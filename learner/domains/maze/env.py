@@ -68,7 +68,7 @@ class MazeEnv(gymnasium.Env[Observation, np.int64]):
         ended = burnt or arrived
         return self._pixels.copy(), reward, ended, not ended and self.steps >= MAX_STEPS, {}
 
-    def render(self) -> str | None:  # type: ignore[override]  # gymnasium types render() by the mode it was made with
+    def render(self) -> str | None:
         """Return the maze as text: `#` lava, `*` trail, `@` agent, `$` target."""
         if self.render_mode != "ansi" or self.maze is None:
             return None

@@ -89,8 +89,8 @@ def walls() -> Iterator[tuple[Room, Room, tuple[Cell, ...]]]:
 
 def closed_rooms() -> NDArray[np.bool_]:
     """Return the lava of a maze without doors, bool[17, 17]."""
-    line = np.arange(SIZE) % ROOMS == 0
-    return line[:, None] | line[None, :]
+    line: NDArray[np.bool_] = np.arange(SIZE) % ROOMS == 0
+    return np.logical_or.outer(line, line)
 
 
 def distances_from(lava: NDArray[np.bool_], source: Cell) -> NDArray[np.int16]:

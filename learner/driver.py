@@ -1,0 +1,199 @@
+"""The outer loop of the algorithms: get an instance, let the episode ask, apply its labels, Train, test.
+
+The driver resolves an algorithm's queries through the queue. It may keep several episodes open (`in_flight`); their
+results are applied in episode order, and episode t + K starts right after episode t was applied, so a run is a
+function of its configuration and the answers, never of who was fast. Queries are keyed by (episode, ordinal): a
+learner that starts again asks the same ones and pays for nothing twice.
+"""
+
+import time
+from collections import deque
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from learner.algorithms import Algorithm
+from learner.client import Client, Refused
+from learner.config import TrainConfig
+from learner.datasets import Labels
+from learner.domains.base import InstanceSets
+from learner.learner import TEST, Learner
+from learner.queries import Query
+from learner.rollout import run
+from learner.simulator import Simulator
+from learner.translation import Translator
+from learner.types import FLAT, META
+from server import wire
+
+POLL_SECONDS = 30.0
+_TRAIN_ORDER, _TEST_ORDER = 2, 3  # streams of randomness, beside those of the rollouts
+
+
+@dataclass
+class OpenEpisode:
+    """An episode under way."""
+
+    number: int
+    translator: Translator
+    generator: Generator[Query, Any, Labels]
+    warm_start: bool
+    success: bool | None
+    steps: int
+    ordinal: int = 0
+    pending: int | None = None  # the query it waits for
+    labels: Labels | None = None  # what it taught, once it is over
+
+
+class BudgetExhausted(Exception):
+    """The run's budget cannot pay the next query."""
+
+
+class Driver:
+    """Trains one run.
+
+    Args:
+        config: the run's values.
+        algorithm: what an episode is.
+        learner: what is trained.
+        instances: where to train and test.
+        client: the queue, as a learner.
+        run_id: the run, already created.
+        let_answer: called after each query was asked; an expert in this process answers it there.
+        on_episode: called with each episode's result.
+        first_episode: where to go on, after a resumed checkpoint.
+    """
+
+    def __init__(
+        self,
+        config: TrainConfig,
+        algorithm: Algorithm,
+        learner: Learner,
+        instances: InstanceSets,
+        client: Client,
+        run_id: str,
+        let_answer: Callable[[], None] = lambda: None,
+        on_episode: Callable[[wire.EpisodeResult], None] = lambda _: None,
+        first_episode: int = 0,
+    ) -> None:
+        self._config, self._algorithm, self._learner, self._instances = config, algorithm, learner, instances
+        self._client, self._run_id = client, run_id
+        self._let_answer, self._on_episode = let_answer, on_episode
+        self._test_simulator = Simulator(learner.domain)
+        self._open: deque[OpenEpisode] = deque()
+        self._next = first_episode
+        self._cursor = 0
+        self._clock = time.monotonic()
+
+    def train(self) -> None:
+        """Run to the last episode.
+
+        Raises:
+            BudgetExhausted: the budget ended first.
+            Refused: the server refused for another reason; a run that was finished by somebody, say.
+        """
+        while self._open or self._next < self._config.episodes:
+            while len(self._open) < self._config.in_flight and self._next < self._config.episodes:
+                self._start_episode(self._next)
+                self._next += 1
+            if self._open[0].labels is not None:
+                self._apply(self._open.popleft())
+            else:
+                self._wait()
+
+    def _start_episode(self, number: int) -> None:
+        """Get a new environment instance and go to the first query."""
+        instance = _pick(self._instances.train, self._config.seed, _TRAIN_ORDER, number)
+        s = self._learner.start(instance, number)
+        warm_start = number < self._warm_start
+        generator = (self._algorithm.warm_start if warm_start else self._algorithm.episode)(s, self._learner)
+        query = next(generator)
+        simulator = self._learner.simulator
+        episode = OpenEpisode(
+            number=number,
+            translator=Translator(self._learner.domain, instance),
+            generator=generator,
+            warm_start=warm_start,
+            success=simulator.succeeded if simulator.steps else None,
+            steps=simulator.steps,
+        )
+        self._open.append(episode)
+        self._ask(episode, query)
+
+    @property
+    def _warm_start(self) -> int:
+        return self._learner.preset.warm_start
+
+    def _ask(self, episode: OpenEpisode, query: Query) -> None:
+        """Ask, and go on with the answers that are there at once."""
+        asking: Query | None = query
+        while asking is not None:
+            ask = episode.translator.ask(asking, episode.number, episode.ordinal)
+            try:
+                (asked,) = self._client.ask(self._run_id, [ask])
+            except Refused as refusal:
+                if refusal.name == "budget-exhausted":
+                    raise BudgetExhausted(str(refusal)) from refusal
+                raise
+            episode.ordinal += 1
+            episode.pending = asked.id
+            self._let_answer()
+            asking = self._go_on(episode)
+
+    def _go_on(self, episode: OpenEpisode) -> Query | None:
+        """Use the pending answer, if it is there, and return the next query, if there is one."""
+        assert episode.pending is not None
+        try:
+            used = self._client.use(episode.pending)
+        except Refused as refusal:
+            if refusal.name == "not-answered":
+                return None
+            raise
+        assert used.answer is not None
+        episode.pending = None
+        try:
+            return episode.generator.send(episode.translator.answer(used.answer))
+        except StopIteration as over:
+            episode.labels = over.value
+            return None
+
+    def _wait(self) -> None:
+        """Wait for answers, and let the episodes they belong to go on."""
+        page = self._client.answers(self._run_id, self._cursor, wait=POLL_SECONDS)
+        self._cursor = page.cursor
+        answered = {query.id for query in page.queries}
+        for episode in self._open:
+            if episode.pending in answered:
+                query = self._go_on(episode)
+                if query is not None:
+                    self._ask(episode, query)
+
+    def _apply(self, episode: OpenEpisode) -> None:
+        """Learn from an episode, test on an unseen instance, report."""
+        assert episode.labels is not None
+        self._learner.learn(episode.labels)
+        instance = _pick(self._instances.test, self._config.seed, _TEST_ORDER, episode.number)
+        run(self._learner.rollout(self._test_simulator, instance, TEST, episode.number), self._learner.policies)
+        now = time.monotonic()
+        sizes = {key: len(data) for key, data in self._learner.data.items()}
+        result = wire.EpisodeResult(
+            episode=episode.number,
+            warm_start=episode.warm_start,
+            train_success=episode.success,
+            test_success=self._test_simulator.succeeded,
+            train_steps=episode.steps,
+            test_steps=self._test_simulator.steps,
+            hi_labels=sizes.get(META, 0),
+            lo_labels=sum(size for key, size in sizes.items() if key >= 0 or key == FLAT),
+            seconds=round(now - self._clock, 4),
+        )
+        self._clock = now
+        self._client.report(self._run_id, [result])
+        self._on_episode(result)
+
+
+def _pick(instances: Any, seed: int, stream: int, number: int) -> Any:
+    """Return the instance of an episode: all of them in random order, then all again in another."""
+    lap, place = divmod(number, len(instances))
+    return instances[np.random.default_rng([seed, stream, lap]).permutation(len(instances))[place]]
