@@ -4,9 +4,9 @@ import hashlib
 import secrets
 import statistics
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
-from sqlalchemy import bindparam, func, insert, select, update
+from sqlalchemy import Row, bindparam, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from server import errors, wire
@@ -45,6 +45,10 @@ def hashed(secret: str) -> str:
     return hashlib.sha256(secret.encode("utf-8", "surrogateescape")).hexdigest()
 
 
+def _of_row(row: Row[Any]) -> wire.User:
+    return wire.User(id=row.id, name=row.name, role=row.role, created_at=row.created_at)
+
+
 def create_user(tx: Tx, name: str, role: wire.Role) -> wire.User:
     """Create a user."""
     try:
@@ -52,23 +56,31 @@ def create_user(tx: Tx, name: str, role: wire.Role) -> wire.User:
             row = tx.conn.execute(insert(users).values(name=name, role=role, created_at=tx.now).returning(users)).one()
     except IntegrityError:
         raise errors.NameTaken(f"There is a user named {name!r}; choose another name.") from None
-    return wire.User(id=row.id, name=row.name, role=row.role, created_at=row.created_at)
+    return _of_row(row)
 
 
 def ensure_user(tx: Tx, name: str, role: wire.Role) -> wire.User:
     """Return the user of a name, created if there is none."""
     row = tx.conn.execute(select(users).where(users.c.name == name)).one_or_none()
+    return create_user(tx, name, role) if row is None else _of_row(row)
+
+
+def named(tx: Tx, name: str) -> wire.User:
+    """Return the user of a name.
+
+    Raises:
+        NotFound: if there is none.
+    """
+    row = tx.conn.execute(select(users).where(users.c.name == name)).one_or_none()
     if row is None:
-        return create_user(tx, name, role)
-    return wire.User(id=row.id, name=row.name, role=row.role, created_at=row.created_at)
+        raise errors.NotFound(f"There is no user named {name!r}; `waypost user add` creates one.")
+    return _of_row(row)
 
 
 def everyone(tx: Tx) -> wire.UserList:
     """List all users."""
     rows = tx.conn.execute(select(users).order_by(users.c.id)).all()
-    return wire.UserList(
-        users=[wire.User(id=row.id, name=row.name, role=row.role, created_at=row.created_at) for row in rows]
-    )
+    return wire.UserList(users=[_of_row(row) for row in rows])
 
 
 def _issue(tx: Tx, user: int, kind: CredentialKind, label: str, seconds: float | None) -> Secret:

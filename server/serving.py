@@ -10,11 +10,10 @@ import uvicorn
 from fastapi import FastAPI
 
 from server.app import create_app
-from server.database import BadDatabase, Database
+from server.database import Database
 from server.settings import Settings
 
 GRACE_SECONDS = 2
-START_SECONDS = 60
 
 
 class CannotServe(Exception):  # noqa: N818 - says what it is
@@ -81,15 +80,16 @@ def background(settings: Settings, host: str = "127.0.0.1", port: int = 0) -> It
     """Serve on a thread for as long as the context lasts.
 
     Raises:
-        CannotServe, BadDatabase: with one sentence for the user.
+        CannotServe, BadDatabase, NewerStore: with one sentence for the user.
     """
     bound = bind(host, port)
+    Database(settings.database).close()  # what is wrong with it is said here, not in the thread's log
     app = create_app(settings)
     server = Server(app, "warning")
     thread = threading.Thread(target=server.run, args=([bound],), name="waypost-serve", daemon=True)
     thread.start()
     try:
-        _wait_for_start(server, thread, settings)
+        _wait_for_start(server, thread)
         yield Served(url_of(bound), app.state.context.db)
     finally:
         server.should_exit = True
@@ -97,13 +97,13 @@ def background(settings: Settings, host: str = "127.0.0.1", port: int = 0) -> It
         bound.close()
 
 
-def _wait_for_start(server: Server, thread: threading.Thread, settings: Settings) -> None:
+def _wait_for_start(server: Server, thread: threading.Thread) -> None:
     while not server.started:
         thread.join(0.01)
         if not thread.is_alive():
-            raise BadDatabase(f"The server did not start on {settings.database}; its log says why.")
+            raise CannotServe("The server did not start; its log says why.")
 
 
-def foreground(app: FastAPI, bound: socket.socket, log_level: str = "info") -> None:
+def foreground(app: FastAPI, bound: socket.socket, log_level: str = "warning") -> None:
     """Serve until the process is told to stop."""
     Server(app, log_level).run([bound])

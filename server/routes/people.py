@@ -40,9 +40,10 @@ async def login(body: wire.Login, request: Request, response: Response, context:
 
 @router.delete("/session", status_code=204, operation_id="logout")
 async def logout(response: Response, context: Ctx, caller: AnyoneCalls) -> None:
-    """End the session, or revoke the token, that this request came with."""
-    await context.db.write(lambda tx: people.revoke(tx, caller.credential))
-    context.credentials.forget()
+    """End the browser's session; a token stays good until it is revoked."""
+    if caller.by_cookie:
+        await context.db.write(lambda tx: people.revoke(tx, caller.credential))
+        context.credentials.forget()
     response.delete_cookie(COOKIE, path="/")
 
 

@@ -1,0 +1,166 @@
+"""The server's commands: serve, and the people and programs that may call it."""
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Annotated, NoReturn, get_args
+
+import typer
+from pydantic import ValidationError
+
+from server import errors, page, people, serving, wire
+from server.app import create_app
+from server.database import BadDatabase, Database
+from server.schema import NewerStore
+from server.settings import Settings
+
+app = typer.Typer(no_args_is_help=True, help="Waypost's server and its users.")
+user_app = typer.Typer(no_args_is_help=True, help="The people and programs that may call the server.")
+token_app = typer.Typer(no_args_is_help=True, help="API tokens.")
+app.add_typer(user_app, name="user")
+app.add_typer(token_app, name="token")
+
+DatabaseOption = Annotated[
+    str, typer.Option("--database", envvar="WAYPOST_DATABASE", help="sqlite:///FILE or postgresql://USER@HOST/NAME.")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as one line of JSON.")]
+
+DEFAULT_DATABASE = "sqlite:///waypost.db"
+
+
+def refuse(message: str) -> NoReturn:
+    """Say what was wrong and end with the status of wrong usage."""
+    typer.echo(message, err=True)
+    raise typer.Exit(2)
+
+
+@contextmanager
+def opened(url: str) -> Iterator[Database]:
+    """Open a store for one command; what is wrong with it ends the command with one sentence."""
+    try:
+        db = Database(url)
+    except (BadDatabase, NewerStore) as error:
+        refuse(str(error))
+    try:
+        yield db
+    except errors.Refusal as refusal:
+        refuse(refusal.detail)
+    finally:
+        db.close()
+
+
+def login_url(db: Database, base: str, name: str, role: wire.Role, seconds: float) -> str:
+    """Return a one-time link that logs the user of a name in; the user is created if there is none."""
+    user = db.write_now(lambda tx: people.ensure_user(tx, name, role))
+    link = db.write_now(lambda tx: people.create_login(tx, user.id, seconds))
+    return f"{base.rstrip('/')}/login#{link.code}"
+
+
+def serve_app(settings: Settings, host: str, port: int) -> None:
+    """Serve until told to stop; prints a link that logs an administrator in.
+
+    Raises:
+        CannotServe, BadDatabase, NewerStore: with one sentence for the user.
+    """
+    bound = serving.bind(host, port)
+    named = () if host in {"0.0.0.0", "::"} else (host,)  # noqa: S104 - compared, not bound
+    chosen = settings.model_copy(update={"hosts": (*settings.hosts, *named)})
+    db = Database(chosen.database)
+    try:
+        link = login_url(db, serving.url_of(bound), "admin", "admin", chosen.link_seconds)
+    finally:
+        db.close()
+    typer.echo(f"Waypost serves {db.url.render_as_string()} at {serving.url_of(bound)}")
+    typer.echo(f"Log in once, within {chosen.link_seconds / 60:.0f} minutes: {link}")
+    if chosen.page is None and page.find() is None:
+        typer.echo("The page is not built; `make web` builds it.")
+    serving.foreground(create_app(chosen), bound)
+
+
+@app.command()
+def serve(
+    host: Annotated[str, typer.Option(help="The address to listen on.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(min=0, max=65_535, help="The port; 0 takes a free one.")] = 8000,
+    database: DatabaseOption = DEFAULT_DATABASE,
+    lease: Annotated[float | None, typer.Option(help="Seconds an assignment lives without a renewal.")] = None,
+) -> None:
+    """Serve the API and the page; prints a one-time link that logs an administrator in."""
+    given = {"database": database} | ({} if lease is None else {"lease_seconds": lease})
+    try:
+        settings = Settings.model_validate(Settings().model_dump() | given)
+        serve_app(settings, host, port)
+    except ValidationError as error:
+        first = error.errors()[0]
+        refuse(f"The setting {'.'.join(map(str, first['loc']))} is not valid: {first['msg']}.")
+    except (serving.CannotServe, BadDatabase, NewerStore) as error:
+        refuse(str(error))
+
+
+@user_app.command("add")
+def add_user(
+    name: str,
+    role: Annotated[str, typer.Option(help="admin, learner, annotator or viewer.")] = "annotator",
+    database: DatabaseOption = DEFAULT_DATABASE,
+    as_json: JsonOption = False,
+) -> None:
+    """Create a user."""
+    if role not in get_args(wire.Role):
+        refuse(f"{role!r} is no role; choose one of {', '.join(get_args(wire.Role))}.")
+    try:
+        wanted = wire.UserCreate.model_validate({"name": name, "role": role})
+    except ValidationError as error:
+        refuse(f"{name!r} cannot be a user's name: {error.errors()[0]['msg']}.")
+    with opened(database) as db:
+        user = db.write_now(lambda tx: people.create_user(tx, wanted.name, wanted.role))
+    typer.echo(user.model_dump_json() if as_json else f"User {user.id}: {user.name} ({user.role})")
+
+
+@user_app.command("list")
+def list_users(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
+    """List all users."""
+    with opened(database) as db:
+        found = db.read_now(people.everyone)
+    if as_json:
+        typer.echo(found.model_dump_json())
+        return
+    for user in found.users:
+        typer.echo(f"{user.id:>6}  {user.role:<10} {user.name}")
+
+
+@token_app.command("create")
+def create_token(
+    user: str,
+    label: Annotated[str, typer.Option(help="What it is for.")] = "",
+    database: DatabaseOption = DEFAULT_DATABASE,
+    as_json: JsonOption = False,
+) -> None:
+    """Create an API token for the user of a name; it is shown this once."""
+    with opened(database) as db:
+        owner = db.read_now(lambda tx: people.named(tx, user))
+        token = db.write_now(lambda tx: people.create_token(tx, owner.id, label))
+    typer.echo(token.model_dump_json() if as_json else token.token)
+
+
+@token_app.command("revoke")
+def revoke_token(token: int, database: DatabaseOption = DEFAULT_DATABASE) -> None:
+    """Revoke an API token by its number."""
+    with opened(database) as db:
+        db.write_now(lambda tx: people.revoke_token(tx, token))
+
+
+@app.command("login-link")
+def login_link(
+    user: str,
+    base: Annotated[str, typer.Option(help="The server's address.")] = "http://127.0.0.1:8000",
+    database: DatabaseOption = DEFAULT_DATABASE,
+    as_json: JsonOption = False,
+) -> None:
+    """Print a one-time link that logs the user of a name in."""
+    with opened(database) as db:
+        owner = db.read_now(lambda tx: people.named(tx, user))
+        url = login_url(db, base, owner.name, owner.role, Settings().link_seconds)
+    typer.echo(json.dumps({"url": url}) if as_json else url)
+
+
+if __name__ == "__main__":
+    app()
