@@ -14,3 +14,4 @@ class TrainConfig:
     seed: int = 0
     episodes: int = 1_000
     in_flight: int = 1  # episodes open at once; 1 is the paper's loop
+    warm_start: int | None = None  # demonstrations before questions; the preset's number unless given

@@ -34,6 +34,14 @@ class Dataset:
         self._labels = torch.empty((256, 2), dtype=torch.int64)
         self._size = 0
 
+    @classmethod
+    def of(cls, observations: torch.Tensor, labels: torch.Tensor) -> "Dataset":
+        """Return a buffer that holds these rows."""
+        dataset = cls(tuple(observations.shape[1:]))
+        if len(labels):
+            dataset._observations, dataset._labels, dataset._size = observations, labels, len(labels)
+        return dataset
+
     def __len__(self) -> int:
         return self._size
 

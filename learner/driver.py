@@ -82,7 +82,7 @@ class Driver:
         self._let_answer, self._on_episode = let_answer, on_episode
         self._test_simulator = Simulator(learner.domain)
         self._open: deque[OpenEpisode] = deque()
-        self._next = first_episode
+        self._next = self.applied = first_episode
         self._cursor = 0
         self._clock = time.monotonic()
 
@@ -190,6 +190,7 @@ class Driver:
         )
         self._clock = now
         self._client.report(self._run_id, [result])
+        self.applied += 1
         self._on_episode(result)
 
 

@@ -10,7 +10,7 @@ import torch
 from learner.datasets import Dataset, Labels
 from learner.domains.base import Domain
 from learner.policies import Policy
-from learner.presets import Preset
+from learner.presets.base import Preset
 from learner.rollout import Rollout, flat_rollout, hierarchical_rollout, run
 from learner.simulator import Simulator
 from learner.types import FLAT, META, PolicyKey, State, Trajectory

@@ -1,4 +1,4 @@
-"""The network of Table 1, its sizes being values of a preset."""
+"""The network of Table 1, its sizes being values of a preset; and a plain one for domains that are not pictures."""
 
 from dataclasses import dataclass
 
@@ -7,12 +7,11 @@ from torch import nn
 
 
 @dataclass(frozen=True)
-class ConvSpec:
+class NetworkSpec:
     """Table 1: blocks of two 3x3 convolutions and a 2x2 max-pool, one fully connected layer, the output layer."""
 
     channels: tuple[int, ...] = (32, 64)
     hidden: int = 256
-    dropout: float = 0.5  # after each pool and after the fully connected layer, the authors' value
 
 
 class Dropout(nn.Module):
@@ -30,13 +29,32 @@ class Dropout(nn.Module):
         return x * kept.div_(1 - self.rate)
 
 
+def build_network(
+    observation_shape: tuple[int, ...], outputs: int, spec: NetworkSpec, dropout: float, rng: torch.Generator
+) -> nn.Module:
+    """Return the network for observations of a shape: (channels, rows, columns) for pictures, (features,) for vectors.
+
+    Dropout comes after each pool and after the fully connected layer.
+
+    Raises:
+        ValueError: observations of another shape.
+    """
+    if len(observation_shape) == 3:
+        return ConvNet(observation_shape, outputs, spec, dropout, rng)
+    if len(observation_shape) == 1:
+        return DenseNet(observation_shape[0], outputs, spec, dropout, rng)
+    raise ValueError(f"no network for observations of shape {observation_shape}; use (C, rows, columns) or (features,)")
+
+
 class ConvNet(nn.Sequential):
     """Maps float32[B, C, rows, columns] to logits float32[B, outputs].
 
     Weights and dropout are drawn from `rng` alone.
     """
 
-    def __init__(self, observation_shape: tuple[int, ...], outputs: int, spec: ConvSpec, rng: torch.Generator) -> None:
+    def __init__(
+        self, observation_shape: tuple[int, ...], outputs: int, spec: NetworkSpec, dropout: float, rng: torch.Generator
+    ) -> None:
         channels, rows, columns = observation_shape
         layers: list[nn.Module] = []
         for width in spec.channels:
@@ -46,20 +64,41 @@ class ConvNet(nn.Sequential):
                 nn.Conv2d(width, width, 3, padding="valid"),
                 nn.ReLU(),
                 nn.MaxPool2d(2),
-                Dropout(spec.dropout, rng),
+                Dropout(dropout, rng),
             ]
             channels, rows, columns = width, (rows - 2) // 2, (columns - 2) // 2
         layers += [
             nn.Flatten(),
             nn.Linear(channels * rows * columns, spec.hidden),
             nn.ReLU(),
-            Dropout(spec.dropout, rng),
+            Dropout(dropout, rng),
             nn.Linear(spec.hidden, outputs),
         ]
         super().__init__(*layers)
-        for layer in layers:  # Glorot's initialization, the default of the authors' framework
-            if isinstance(layer, nn.Conv2d | nn.Linear):
-                assert layer.bias is not None
-                nn.init.xavier_uniform_(layer.weight, generator=rng)
-                nn.init.zeros_(layer.bias)
+        _initialize(layers, rng)
         self.to(memory_format=torch.channels_last)  # type: ignore[call-overload]  # torch's stub lacks this form
+
+
+class DenseNet(nn.Sequential):
+    """Maps float32[B, features] to logits float32[B, outputs] through two layers of `spec.hidden`."""
+
+    def __init__(self, features: int, outputs: int, spec: NetworkSpec, dropout: float, rng: torch.Generator) -> None:
+        layers: list[nn.Module] = [
+            nn.Linear(features, spec.hidden),
+            nn.ReLU(),
+            nn.Linear(spec.hidden, spec.hidden),
+            nn.ReLU(),
+            Dropout(dropout, rng),
+            nn.Linear(spec.hidden, outputs),
+        ]
+        super().__init__(*layers)
+        _initialize(layers, rng)
+
+
+def _initialize(layers: list[nn.Module], rng: torch.Generator) -> None:
+    """Draw Glorot's initial weights, the default of the authors' framework."""
+    for layer in layers:
+        if isinstance(layer, nn.Conv2d | nn.Linear):
+            assert layer.bias is not None
+            nn.init.xavier_uniform_(layer.weight, generator=rng)
+            nn.init.zeros_(layer.bias)

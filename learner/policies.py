@@ -5,6 +5,7 @@ has one more output, the logit of beta_g ("one can also view the subgoal termina
 subgoal policy network", appendix).
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from torch.nn import functional
 
 from learner.datasets import UNLABELED, Dataset
-from learner.networks import ConvNet, ConvSpec
+from learner.networks import NetworkSpec, build_network
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,8 @@ class TrainSpec:
 
     learning_rate: float = 5e-4
     batch: int = 32
-    samples_per_round: int = 4096  # at most; a smaller buffer is passed over once
+    samples_per_round: int = 4096
+    dropout: float = 0.5
     bf16: bool = True  # mixed precision where the processor has bf16 arithmetic
 
 
@@ -42,13 +44,13 @@ class Policy:
         observation_shape: tuple[int, ...],
         choices: int,
         terminates: bool,
-        network: ConvSpec,
+        network: NetworkSpec,
         train: TrainSpec,
         seed: int,
     ) -> None:
         self.choices, self.terminates, self.spec = choices, terminates, train
         self.rng = torch.Generator().manual_seed(seed)
-        self.network = ConvNet(observation_shape, choices + int(terminates), network, self.rng)
+        self.network = build_network(observation_shape, choices + int(terminates), network, train.dropout, self.rng)
         self.optimizer = torch.optim.Adam(self.network.parameters(), lr=train.learning_rate, fused=True)
         self._bf16 = train.bf16 and torch.ops.mkldnn._is_mkldnn_bf16_supported()
         self.network.eval()
@@ -61,14 +63,16 @@ class Policy:
         return Outputs(out[:, : self.choices].numpy(), fires.numpy())
 
     def train(self, data: Dataset) -> None:
-        """Train(policy, D): one pass over the data in random order, at most `samples_per_round` rows of it."""
+        """Train(policy, D): `samples_per_round` rows in random order, pass after pass over the data."""
         if not len(data):
             return
-        order = torch.randperm(len(data), generator=self.rng)[: self.spec.samples_per_round]
+        passes = math.ceil(self.spec.samples_per_round / len(data))
+        order = torch.cat([torch.randperm(len(data), generator=self.rng) for _ in range(passes)])
+        order = order[: self.spec.samples_per_round]
         self.network.train()
         for rows in torch.split(order, self.spec.batch):
             with torch.autocast("cpu", torch.bfloat16, enabled=self._bf16):
-                out = self.network(data.observations[rows].contiguous(memory_format=torch.channels_last))
+                out = self.network(_channels_last(data.observations[rows]))
             loss = self._loss(out.float(), data.labels[rows])
             self.optimizer.zero_grad()
             torch.autograd.backward(loss)
@@ -87,3 +91,8 @@ class Policy:
                 out[:, self.choices], terminations.clamp(min=0).float(), labeled.float(), reduction="sum"
             ) / len(labels)
         return loss
+
+
+def _channels_last(batch: torch.Tensor) -> torch.Tensor:
+    """Lay pictures out as the convolutions like them best; leave vectors as they are."""
+    return batch.contiguous(memory_format=torch.channels_last) if batch.dim() == 4 else batch

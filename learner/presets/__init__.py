@@ -1,18 +1,17 @@
 """Presets: every value that fixes how a run learns, in one readable file each."""
 
-from dataclasses import dataclass
+from learner.presets.base import Preset
+from learner.presets.paper import PAPER
 
-from learner.networks import ConvSpec
-from learner.policies import TrainSpec
-from learner.rollout import Choosing
+PRESETS = {"paper": PAPER}
 
 
-@dataclass(frozen=True)
-class Preset:
-    """The values of a run."""
+def find_preset(name: str) -> Preset:
+    """Return a preset.
 
-    warm_start: int  # episodes of Algorithm 1 before an interactive algorithm begins
-    network: ConvSpec
-    train_hi: TrainSpec
-    train_lo: TrainSpec
-    choosing: Choosing
+    Raises:
+        ValueError: there is none of that name; the message lists those that exist.
+    """
+    if name not in PRESETS:
+        raise ValueError(f"there is no preset {name!r}; those that exist are: {', '.join(sorted(PRESETS))}")
+    return PRESETS[name]

@@ -1,14 +1,14 @@
 """The paper's setting: section 5.1, the appendix, Table 1, and the authors' values where the text is silent."""
 
-from learner.networks import ConvSpec
+from learner.networks import NetworkSpec
 from learner.policies import TrainSpec
-from learner.presets import Preset
+from learner.presets.base import Preset
 from learner.rollout import Choosing
 
 PAPER = Preset(
     warm_start=200,
-    network=ConvSpec(channels=(32, 64), hidden=256, dropout=0.5),
-    train_hi=TrainSpec(learning_rate=5e-4, batch=32, samples_per_round=4096),
-    train_lo=TrainSpec(learning_rate=5e-4, batch=32, samples_per_round=512),
+    network=NetworkSpec(channels=(32, 64), hidden=256),
+    train_hi=TrainSpec(learning_rate=5e-4, batch=32, samples_per_round=4096, dropout=0.25),
+    train_lo=TrainSpec(learning_rate=5e-4, batch=32, samples_per_round=1024, dropout=0.25),
     choosing=Choosing(temperature=0.1, termination_threshold=0.9),
 )

@@ -1,9 +1,11 @@
 """The maze navigation domain of the paper."""
 
+from pathlib import Path
 from typing import Any
 
 from learner.domains.base import Horizons, InstanceSets
 from learner.domains.maze.env import MAX_STEPS, MazeEnv
+from learner.domains.maze.files import load_mazes
 from learner.domains.maze.generator import KINDS, maze_set
 from learner.domains.maze.maze import ACTIONS, SIZE, SUBGOALS, Maze
 from learner.domains.maze.oracle import MazeOracle
@@ -27,10 +29,13 @@ class MazeDomain:
         return MazeEnv()
 
     def instances(self, name: str) -> InstanceSets:
-        """Return the set `random` or `corners` (PAPER: 1,000 + 1,000 mazes), or the mazes of an `.npz` to test on."""
+        """Return `random` or `corners` (1,000 + 1,000 mazes), or the mazes of an `.npz`, to train and to test on."""
         if name in KINDS:
             return InstanceSets(*maze_set(name))
-        raise ValueError(name)
+        if not name.endswith(".npz"):
+            raise ValueError(f"the maze has no instances {name!r}; there are {', '.join(KINDS)}, or a file.npz")
+        mazes = load_mazes(Path(name))
+        return InstanceSets(train=mazes, test=mazes)
 
     def instance_view(self, instance: Maze) -> Any:
         """Return rows of text, start and goal."""

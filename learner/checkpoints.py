@@ -1,0 +1,119 @@
+"""Checkpoints: everything a learner is, in one safetensors file, written so that it is never torn.
+
+Tensors: `policy.KEY.NAME` (weights), and while a run is under way also `optimizer.KEY.INDEX.NAME`, `data.KEY.*` (the
+buffers) and `rng.KEY`. What else must be known is JSON in the file's metadata. No code is stored, so none can run.
+"""
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import torch
+from safetensors import SafetensorError, safe_open
+from safetensors.torch import save
+
+from learner.config import TrainConfig
+from learner.datasets import Dataset
+from learner.learner import Learner
+
+Tensors = dict[str, torch.Tensor]
+
+
+@dataclass(frozen=True)
+class Header:
+    """What a checkpoint is of."""
+
+    run: str
+    config: TrainConfig
+    episodes: int  # applied so far
+
+
+def write(path: Path, learner: Learner, header: Header, weights_only: bool) -> None:
+    """Write a checkpoint: to a temporary file first, synced, then renamed over the old one."""
+    tensors = dict(_weights(learner))
+    if not weights_only:
+        tensors |= _training_state(learner)
+    metadata = {"waypost": json.dumps(asdict(header))}
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_suffix(".tmp")
+    with temporary.open("wb") as file:
+        file.write(save({name: tensor.contiguous() for name, tensor in tensors.items()}, metadata))
+        file.flush()
+        os.fsync(file.fileno())
+    temporary.replace(path)
+    folder = os.open(path.parent, os.O_RDONLY)
+    try:
+        os.fsync(folder)
+    finally:
+        os.close(folder)
+
+
+def read_header(path: Path) -> Header:
+    """Return what a checkpoint is of.
+
+    Raises:
+        ValueError: there is no such checkpoint, or the file is none.
+    """
+    try:
+        with safe_open(path, "pt") as file:
+            fields = json.loads((file.metadata() or {})["waypost"])
+        return Header(fields["run"], TrainConfig(**fields["config"]), fields["episodes"])
+    except FileNotFoundError as error:
+        raise ValueError(f"there is no checkpoint {path}") from error
+    except (SafetensorError, KeyError, TypeError, json.JSONDecodeError) as error:
+        raise ValueError(f"{path} is no checkpoint of this version of Waypost") from error
+
+
+def load(path: Path, learner: Learner) -> None:
+    """Put a checkpoint's weights, and its training state if it has one, into a learner of the same configuration."""
+    with safe_open(path, "pt") as file:
+        tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118 (no mapping)
+    for key, policy in learner.policies.items():
+        policy.network.load_state_dict(_below(tensors, f"policy.{key}."))
+        optimizer = _below(tensors, f"optimizer.{key}.")
+        if optimizer:
+            _load_optimizer(policy.optimizer, optimizer)
+        if f"rng.{key}" in tensors:
+            policy.rng.set_state(tensors[f"rng.{key}"])
+            learner.data[key] = Dataset.of(tensors[f"data.{key}.observations"], tensors[f"data.{key}.labels"])
+
+
+def weights_hash(learner: Learner) -> str:
+    """Return the SHA-256 of all weights: equal if and only if the policies are, bit by bit."""
+    digest = hashlib.sha256()
+    for name, tensor in sorted(_weights(learner)):
+        digest.update(name.encode())
+        digest.update(tensor.contiguous().numpy().tobytes())
+    return digest.hexdigest()
+
+
+def _weights(learner: Learner) -> Iterator[tuple[str, torch.Tensor]]:
+    for key, policy in learner.policies.items():
+        for name, tensor in policy.network.state_dict().items():
+            yield f"policy.{key}.{name}", tensor
+
+
+def _training_state(learner: Learner) -> Tensors:
+    tensors: Tensors = {}
+    for key, policy in learner.policies.items():
+        for index, state in policy.optimizer.state_dict()["state"].items():
+            tensors |= {f"optimizer.{key}.{index}.{name}": tensor for name, tensor in state.items()}
+        tensors[f"rng.{key}"] = policy.rng.get_state()
+        tensors[f"data.{key}.observations"] = learner.data[key].observations
+        tensors[f"data.{key}.labels"] = learner.data[key].labels
+    return tensors
+
+
+def _load_optimizer(optimizer: torch.optim.Optimizer, tensors: Tensors) -> None:
+    state: dict[int, Tensors] = {}
+    for path, tensor in tensors.items():
+        index, name = path.split(".")
+        state.setdefault(int(index), {})[name] = tensor
+    optimizer.load_state_dict({**optimizer.state_dict(), "state": state})
+
+
+def _below(tensors: Tensors, prefix: str) -> Tensors:
+    return {name.removeprefix(prefix): tensor for name, tensor in tensors.items() if name.startswith(prefix)}

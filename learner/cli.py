@@ -1,0 +1,279 @@
+"""The command `waypost`: the server's commands, and the learner's.
+
+Importing this module must be quick and must not need the learner's packages: they are imported by the commands that
+use them, so that the base installation can serve.
+"""
+
+import json
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from server import cli as server_cli
+from server.cli import JsonOption, refuse
+from server.database import BadDatabase
+from server.schema import NewerStore
+from server.serving import CannotServe
+from server.wire import EpisodeResult, Receipt, Run
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    help="Waypost: interactive labeling for hierarchical imitation learning.",
+)
+app.add_typer(server_cli.app)
+
+ServerOption = Annotated[str | None, typer.Option("--server", help="A running server, such as http://127.0.0.1:8000.")]
+TokenOption = Annotated[
+    str,
+    typer.Option("--token", envvar="WAYPOST_TOKEN", help="An API token (`waypost token create`).", show_default=False),
+]
+StoreOption = Annotated[Path | None, typer.Option("--store", help="An SQLite file; it is created if it is not there.")]
+CheckpointsOption = Annotated[
+    Path | None,
+    typer.Option(help="Folder of checkpoints; beside the store, or ./checkpoints with a server."),
+]
+ThreadsOption = Annotated[
+    int | None, typer.Option(min=1, help="Processor threads to train with; it changes nothing but the time.")
+]
+
+
+@app.command()
+def train(
+    algorithm: Annotated[str, typer.Argument(help="hg-dagger or h-bc.")],
+    domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
+    instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "random",
+    preset: Annotated[str, typer.Option(help="The values of learning.")] = "paper",
+    seed: Annotated[int, typer.Option(min=0, help="Fixes the run.")] = 0,
+    episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 1000,
+    warm_start: Annotated[int | None, typer.Option(min=0, help="Demonstrations first; the preset's if absent.")] = None,
+    expert: Annotated[str, typer.Option(help="Who answers: oracle (in this process) or queue.")] = "oracle",
+    server: ServerOption = None,
+    token: TokenOption = "",
+    store: StoreOption = None,
+    in_flight: Annotated[int, typer.Option(min=1, help="Episodes open at once; 1 is the paper's loop.")] = 1,
+    resume: Annotated[bool, typer.Option(help="Go on with the newest unfinished run of these values.")] = False,
+    name: Annotated[str | None, typer.Option(help="What the run is called.")] = None,
+    budget: Annotated[float | None, typer.Option(min=0, help="Most units the run may cost.")] = None,
+    checkpoints: CheckpointsOption = None,
+    threads: ThreadsOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Train with an algorithm of the paper; every answer and its price goes into the store."""
+    if expert not in {"oracle", "queue"}:
+        refuse(f"There is no expert {expert!r}; choose oracle (answers in this process) or queue (others answer).")
+    if server is None and expert == "queue":
+        refuse("With --expert queue others answer at a server: give its address with --server URL.")
+    if server is not None and store is not None:
+        refuse("The server keeps the store: give either --server or --store.")
+    with _learner_errors():
+        from learner import training
+        from learner.config import TrainConfig
+
+        config = TrainConfig(algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start)
+        options = training.RunOptions(name, budget, resume, _checkpoint_folder(checkpoints, store, server), threads)
+        with ExitStack() as stack:
+            connection = stack.enter_context(
+                training.remote(server, _needed(token), expert == "oracle")
+                if server is not None
+                else training.embedded(store or Path("waypost.db"))
+            )
+            progress = stack.enter_context(_TrainingProgress(episodes))
+            summary = training.train(config, connection, options, progress.start, progress.episode)
+    _print_summary(summary, as_json)
+
+
+@app.command()
+def evaluate(
+    run: Annotated[str, typer.Argument(help="The run's id, as `waypost train` printed it.")],
+    instances: Annotated[str | None, typer.Option(help="Other instances than the run's own unseen ones.")] = None,
+    episodes: Annotated[int, typer.Option(min=0, help="How many; 0 for one on each instance.")] = 0,
+    store: StoreOption = None,
+    server: ServerOption = None,
+    checkpoints: CheckpointsOption = None,
+    threads: ThreadsOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Measure the success of a run's policy on unseen or given instances."""
+    with _learner_errors():
+        from learner import training
+
+        path = _checkpoint_folder(checkpoints, store, server) / f"{run}.safetensors"
+        found = training.evaluate_run(path, instances, episodes, threads)
+    if as_json:
+        typer.echo(json.dumps({**vars(found), "success_rate": found.success_rate}))
+    else:
+        typer.echo(f"{found.successes} of {found.episodes} episodes succeeded: {found.success_rate:.1%}")
+
+
+@app.command()
+def oracle(
+    server: Annotated[str, typer.Option(help="The server.")] = "http://127.0.0.1:8000",
+    token: TokenOption = "",
+    run: Annotated[str | None, typer.Option(help="Only this run.")] = None,
+    kinds: Annotated[str | None, typer.Option(help="Only these kinds, comma-separated.")] = None,
+    error_rate: Annotated[float, typer.Option(min=0, max=1, help="Share of answers that are random ones.")] = 0.0,
+    seconds: Annotated[float, typer.Option(min=0, help="How long to think about each answer.")] = 0.0,
+    defer: Annotated[float, typer.Option(min=0, help="Leave queries so many seconds to people at work.")] = 0.0,
+    seed: Annotated[int, typer.Option(min=0, help="Of the random answers.")] = 0,
+) -> None:
+    """Answer queries with the oracle of their domain, until interrupted."""
+    chosen = _kinds(kinds)
+    with _learner_errors():
+        from learner.bot import Bot, BotSettings
+        from learner.client import Client
+
+        client = Client(server, _needed(token))
+        bot = Bot(client, BotSettings(run, chosen, error_rate, seconds, defer, seed))
+        answers, units = 0, 0.0
+
+        console = Console(stderr=True)
+        with console.status("Waiting for queries.") as status:
+
+            def count(receipt: Receipt) -> None:
+                nonlocal answers, units
+                answers, units = answers + 1, units + receipt.units
+                status.update(f"{answers} answers, {units:g} units; the last was query {receipt.query}.")
+
+            try:
+                bot.work_forever(count)
+            except KeyboardInterrupt:
+                console.print(f"{answers} answers, {units:g} units.")
+
+
+@app.command()
+def demo(
+    port: Annotated[int, typer.Option(min=0, max=65_535, help="The port; 0 takes a free one.")] = 8000,
+    database: Annotated[Path, typer.Option(help="The SQLite file that keeps what is answered.")] = Path(
+        "waypost-demo.db"
+    ),
+    episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 300,
+    instances: Annotated[str, typer.Option(help="The mazes: random or corners.")] = "corners",
+) -> None:
+    """Show it all on this machine: a server, a learner and a bot; prints a link that logs you in."""
+    with _learner_errors():
+        from learner.demo import run_demo
+
+        run_demo(port, database, episodes, instances)
+
+
+def main() -> None:
+    """Run `waypost`."""
+    app()
+
+
+# --- what the commands share
+
+
+@contextmanager
+def _learner_errors() -> Iterator[None]:
+    """Turn what can go wrong into one sentence: exit 2 for wrong usage, 1 for what failed."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        refuse(f"This needs the package {error.name}: install the learner with `pip install 'waypost[learner]'`.")
+    except (ValueError, BadDatabase, NewerStore, CannotServe) as error:
+        refuse(_sentence(error))
+    except KeyboardInterrupt:
+        typer.echo("Interrupted; `--resume` goes on from the last checkpoint.", err=True)
+        raise typer.Exit(130) from None
+    except Exception as error:
+        from learner.client import Refused, Unreachable
+
+        if isinstance(error, Refused | Unreachable):
+            typer.echo(_sentence(error), err=True)
+            raise typer.Exit(1) from None
+        raise
+
+
+def _sentence(error: Exception) -> str:
+    text = str(error)
+    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "?")) else ".")
+
+
+def _needed(token: str) -> str:
+    if not token:
+        refuse("The server wants a token: give --token or set WAYPOST_TOKEN (`waypost token create USER` makes one).")
+    return token
+
+
+def _checkpoint_folder(given: Path | None, store: Path | None, server: str | None) -> Path:
+    if given is not None:
+        return given
+    if server is not None:
+        return Path("checkpoints")
+    store = store or Path("waypost.db")
+    return store.with_name(f"{store.name}.checkpoints")
+
+
+def _kinds(text: str | None) -> Any:
+    from typing import get_args
+
+    from server.wire import Kind
+
+    if text is None:
+        return None
+    kinds = tuple(kind.strip() for kind in text.split(","))
+    unknown = [kind for kind in kinds if kind not in get_args(Kind)]
+    if unknown:
+        refuse(f"There is no kind of query {unknown[0]!r}; those that exist are: {', '.join(get_args(Kind))}.")
+    return kinds
+
+
+@dataclass
+class _TrainingProgress:
+    """A bar on a terminal; nothing elsewhere."""
+
+    episodes: int
+
+    def __enter__(self) -> "_TrainingProgress":
+        console = Console(stderr=True)
+        self._bar = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeElapsedColumn(),
+            TimeRemainingColumn(),
+            console=console,
+            disable=not console.is_terminal,
+        )
+        self._bar.start()
+        self._tests: list[bool] = []
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.stop()
+
+    def start(self, run: Run, first: int) -> None:
+        self._task = self._bar.add_task(f"run {run.id}", total=self.episodes, completed=first)
+
+    def episode(self, result: EpisodeResult) -> None:
+        self._tests = [*self._tests, bool(result.test_success)][-100:]
+        rate = sum(self._tests) / len(self._tests)
+        self._bar.update(self._task, advance=1, description=f"success {rate:.0%} (trailing {len(self._tests)})")
+
+
+def _print_summary(summary: dict[str, Any], as_json: bool) -> None:
+    if as_json:
+        typer.echo(json.dumps(summary))
+        return
+    cost = summary["cost"]
+    typer.echo(f"Run {summary['run']}: {summary['episodes']} episodes, {summary['ended']}.")
+    typer.echo(f"Success on unseen instances, trailing 100: {summary['success_rate']:.0%}")
+    typer.echo(f"Expert cost: {cost['total']:g} units")
+    for kind, units in cost["by_kind"].items():
+        typer.echo(f"  {kind:<13}{units:>10g}")
+    for level, milestone in summary["first_at"].items():
+        if milestone:
+            typer.echo(f"{float(level):.0%} at episode {milestone['episode']}, {milestone['cost']:g} units")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,63 @@
+"""`waypost demo`: a server, a learner and an oracle bot that leaves the questions to you while you answer them."""
+
+import os
+import subprocess
+import sys
+import time
+from contextlib import ExitStack
+from pathlib import Path
+
+import typer
+
+from server import people, serving
+from server.cli import login_url
+from server.settings import Settings
+
+DEFER_SECONDS = 25.0  # how long the bot leaves a question to a person at work
+WARM_START = 20
+PRESET = "demo"
+LINK_SECONDS = 86_400.0
+
+
+def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
+    """Serve until interrupted, with a learner that asks and a bot that answers what nobody else does.
+
+    Raises:
+        CannotServe, BadDatabase, NewerStore: with one sentence for the user.
+    """
+    settings = Settings(database=f"sqlite:///{database}", link_seconds=LINK_SECONDS)
+    with ExitStack() as stack:
+        served = stack.enter_context(serving.background(settings, port=port))
+
+        def start(name: str, role: str, *command: str) -> subprocess.Popen[bytes]:
+            user = served.db.write_now(lambda tx: people.ensure_user(tx, name, role))  # type: ignore[arg-type]
+            token = served.db.write_now(lambda tx: people.create_token(tx, user.id, "demo")).token
+            process = subprocess.Popen(  # noqa: S603 (our own command)
+                [sys.executable, "-m", "learner.cli", *command, "--server", served.url],
+                env={**os.environ, "WAYPOST_TOKEN": token},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+            stack.callback(process.wait)
+            stack.callback(process.terminate)
+            return process
+
+        typer.echo(f"Waypost is at {served.url}; what is answered is kept in {database}.")
+        typer.echo("A learner asks about mazes. Answer with the keyboard; a bot answers whatever you leave.")
+        typer.echo(f"Open this link, once: {login_url(served.db, served.url, 'you', 'admin', LINK_SECONDS)}")
+        typer.echo("Press Ctrl-C to stop.")
+        start("oracle-bot", "annotator", "oracle", "--defer", str(DEFER_SECONDS))
+        train = ("train", "hg-dagger", "--expert", "queue", "--name", "demo", "--preset", PRESET)
+        values = ("--instances", instances, "--episodes", str(episodes), "--warm-start", str(WARM_START))
+        checkpoints = ("--checkpoints", str(database.with_name(f"{database.name}.checkpoints")))
+        learner = start("demo-learner", "learner", *train, *values, *checkpoints)
+        try:
+            if learner.wait():
+                typer.echo("The learner stopped before the end; see the run's page for what was kept.", err=True)
+            else:
+                typer.echo("The run is finished; the page stays until you press Ctrl-C.")
+            while True:
+                time.sleep(3_600)
+        except KeyboardInterrupt:
+            typer.echo("Stopped.")

@@ -1,0 +1,213 @@
+"""`waypost train` and `waypost evaluate`: a configuration, a connection and a folder for checkpoints make a run."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from learner import checkpoints
+from learner.algorithms import find_algorithm
+from learner.bot import Bot, BotSettings
+from learner.client import Client
+from learner.config import TrainConfig
+from learner.domains.base import InstanceSets, find_domain
+from learner.driver import BudgetExhausted, Driver
+from learner.evaluation import Evaluation, evaluate
+from learner.experts.oracle import OracleExpert
+from learner.inprocess import InProcessTransport
+from learner.learner import Learner
+from learner.presets import find_preset
+from learner.translation import vocabulary
+from server import people, wire
+from server.app import create_app
+from server.settings import Settings
+
+CHECKPOINT_EVERY = 25  # episodes
+
+
+@dataclass(frozen=True)
+class Connection:
+    """A server, as a learner and, for an expert in this process, as an annotator."""
+
+    learner: Client
+    annotator: Client | None
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """What does not change what is learned."""
+
+    name: str | None = None
+    budget: float | None = None
+    resume: bool = False
+    checkpoints: Path = Path("checkpoints")
+    threads: int | None = None
+
+
+@contextmanager
+def embedded(store: Path) -> Iterator[Connection]:
+    """Connect to the server's app in this process, on an SQLite store.
+
+    Raises:
+        BadDatabase, NewerStore: with one sentence for the user.
+    """
+    app = create_app(Settings(database=f"sqlite:///{store}"))
+    with InProcessTransport(app) as transport, ExitStack() as stack:
+        db = app.state.context.db
+
+        def connect(name: str, role: wire.Role) -> Client:
+            user = db.write_now(lambda tx: people.ensure_user(tx, name, role))
+            token = db.write_now(lambda tx: people.create_token(tx, user.id, "embedded"))
+            stack.callback(db.write_now, lambda tx: people.revoke_token(tx, token.id))
+            return Client("http://localhost", token.token, transport)
+
+        yield Connection(connect("learner", "learner"), connect("oracle", "annotator"))
+
+
+@contextmanager
+def remote(server: str, token: str, answers_here: bool) -> Iterator[Connection]:
+    """Connect to a server; with `answers_here` an oracle in this process answers (the token must be an admin's)."""
+    client = Client(server, token)
+    try:
+        yield Connection(client, client if answers_here else None)
+    finally:
+        client.close()
+
+
+def build_learner(config: TrainConfig, threads: int | None) -> tuple[Learner, InstanceSets]:
+    """Return what a configuration describes.
+
+    Raises:
+        ValueError: a name that does not exist, or a file that is no set of instances.
+    """
+    find_algorithm(config.algorithm)
+    preset = find_preset(config.preset)
+    if config.warm_start is not None:
+        preset = replace(preset, warm_start=config.warm_start)
+    domain = find_domain(config.domain)
+    return Learner(domain, preset, config.seed, threads=threads), domain.instances(config.instances)
+
+
+def train(
+    config: TrainConfig,
+    connection: Connection,
+    options: RunOptions,
+    on_start: Callable[[wire.Run, int], None] = lambda _run, _first: None,
+    on_episode: Callable[[wire.EpisodeResult], None] = lambda _: None,
+) -> dict[str, Any]:
+    """Train a run to its end and return its summary (DESIGN: the line that `--json` prints).
+
+    Raises:
+        ValueError: the configuration names something that does not exist.
+        Refused, Unreachable: the server would not, or did not, go on.
+    """
+    began = time.monotonic()
+    learner, instances = build_learner(config, options.threads)
+    if connection.annotator is not None:
+        OracleExpert(learner.domain)  # says so at once if the domain has none
+    run = _run(config, learner, connection.learner, options)
+    path = options.checkpoints / f"{run.id}.safetensors"
+    first = _resume(path, learner) if options.resume else 0
+    on_start(run, first)
+
+    def save(episodes: int, weights_only: bool) -> None:
+        checkpoints.write(path, learner, checkpoints.Header(run.id, config, episodes), weights_only)
+
+    def episode_done(result: wire.EpisodeResult) -> None:
+        if (result.episode + 1) % CHECKPOINT_EVERY == 0:
+            save(result.episode + 1, weights_only=False)
+        on_episode(result)
+
+    driver = Driver(
+        config,
+        find_algorithm(config.algorithm),
+        learner,
+        instances,
+        connection.learner,
+        run.id,
+        _answering(connection, run.id),
+        episode_done,
+        first,
+    )
+    ended = "finished"
+    try:
+        driver.train()
+    except BudgetExhausted:
+        ended = "budget exhausted"
+    save(driver.applied, weights_only=True)
+    return _summary(config, learner, connection.learner, run.id, ended, time.monotonic() - began)
+
+
+def evaluate_run(path: Path, instances: str | None, episodes: int, threads: int | None) -> Evaluation:
+    """Evaluate a checkpoint on unseen instances: the run's own test set, or another set or file.
+
+    Raises:
+        ValueError: no checkpoint, or no such instances.
+    """
+    header = checkpoints.read_header(path)
+    learner, _ = build_learner(header.config, threads)
+    checkpoints.load(path, learner)
+    chosen = learner.domain.instances(instances or header.config.instances)
+    return evaluate(learner, chosen.test, episodes or len(chosen.test))
+
+
+def _run(config: TrainConfig, learner: Learner, client: Client, options: RunOptions) -> wire.Run:
+    """Return the run to train: a new one, or the newest unfinished one of this configuration to go on with."""
+    values = {key: value for key, value in asdict(config).items() if value is not None}
+    if options.resume:
+        for run in client.runs():
+            if run.config == values and run.state != "finished" and options.name in (None, run.name):
+                return run
+    return client.create_run(
+        wire.RunCreate(
+            name=options.name or f"{config.algorithm} {config.domain} {config.instances} seed {config.seed}",
+            algorithm=config.algorithm,
+            seed=config.seed,
+            vocabulary=vocabulary(learner.domain),
+            config=values,
+            budget=options.budget,
+            episodes=config.episodes,
+        )
+    )
+
+
+def _resume(path: Path, learner: Learner) -> int:
+    """Load the run's checkpoint, if there is one, and return the episode to go on with."""
+    if not path.exists():
+        return 0
+    checkpoints.load(path, learner)
+    return checkpoints.read_header(path).episodes
+
+
+def _answering(connection: Connection, run: str) -> Callable[[], None]:
+    """Return what lets an expert in this process answer what has been asked."""
+    if connection.annotator is None:
+        return lambda: None
+    bot = Bot(connection.annotator, BotSettings(run=run))
+    return lambda: bot.work(wait=0)
+
+
+def _summary(
+    config: TrainConfig, learner: Learner, client: Client, run: str, ended: str, seconds: float
+) -> dict[str, Any]:
+    costs, state = client.costs(run), client.run(run)
+    summary: dict[str, Any] = {
+        "run": run,
+        "algorithm": config.algorithm,
+        "domain": config.domain,
+        "seed": config.seed,
+        "episodes": state.episodes_done,
+        "success_rate": state.success_rate,
+        "cost": {"total": costs.total, "by_kind": {kind: cost.units for kind, cost in costs.by_kind.items()}},
+        "first_at": {
+            level: milestone.model_dump() if milestone else None for level, milestone in costs.first_at.items()
+        },
+        "wall_seconds": round(seconds, 3),
+        "ended": ended,
+        "weights": checkpoints.weights_hash(learner),
+    }
+    if state.state != "finished":
+        client.patch_run(run, wire.RunPatch(state="finished", result=summary))
+    return summary
