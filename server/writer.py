@@ -80,7 +80,9 @@ class GroupCommit:
                     last = True
                 else:
                     batch.append(job)
-            self._run(batch)
+            # From here on a waiter that gives up can no longer cancel: the outcome always has a place to go.
+            if begun := [job for job in batch if job.future.set_running_or_notify_cancel()]:
+                self._run(begun)
             if last:
                 return
 
