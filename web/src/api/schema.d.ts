@@ -182,7 +182,7 @@ export interface paths {
         };
         /**
          * List Answers
-         * @description Return the queries answered after a cursor, in the order of their answers; with `wait`, as soon as there is one.
+         * @description Return the queries answered after a cursor, in the order of the answers; with `wait`, as soon as there is one.
          */
         get: operations["listAnswers"];
         put?: never;
@@ -333,7 +333,7 @@ export interface paths {
         post: operations["login"];
         /**
          * Logout
-         * @description End the session, or revoke the token, that this request came with.
+         * @description End the browser's session; a token stays good until it is revoked.
          */
         delete: operations["logout"];
         options?: never;

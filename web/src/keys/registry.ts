@@ -58,6 +58,9 @@ export function collisions(bindings: readonly Binding[]): string[] {
 }
 
 const HELP: Binding = { command: 'help', keys: ['?'], label: 'Show every key', group: 'Page', once: true };
+/** What works on every view. */
+export const PAGE_BINDINGS: readonly Binding[] = [HELP];
+
 const UNDO: Binding = { command: 'undo', keys: ['u'], label: 'Undo my last answer', group: 'Task', once: true };
 
 const TASK: readonly Binding[] = [

@@ -1,3 +1,5 @@
+import { readColor } from '../ui/colors';
+
 const NAMES = ['floor', 'grid', 'door', 'lava', 'target', 'agent', 'agent-edge', 'label', 'label-edge', 'marker-text'] as const;
 type Name = (typeof NAMES)[number];
 
@@ -10,14 +12,7 @@ export interface Palette {
 export const SUBGOAL_COLORS = 8;
 
 export function readPalette(element: Element): Palette {
-  const probe = document.createElement('span');
-  element.append(probe);
-  const read = (name: string): string => {
-    probe.style.color = `var(--${name})`;
-    return getComputedStyle(probe).color;
-  };
-  const map = Object.fromEntries(NAMES.map((name) => [name, read(`map-${name}`)])) as Record<Name, string>;
-  const subgoals = Array.from({ length: SUBGOAL_COLORS }, (_, index) => read(`subgoal-${index}`));
-  probe.remove();
-  return { map, subgoals };
+  const map = Object.fromEntries(NAMES.map((name) => [name, readColor(element, `map-${name}`)]));
+  const subgoals = Array.from({ length: SUBGOAL_COLORS }, (_, index) => readColor(element, `subgoal-${index}`));
+  return { map: map as Palette['map'], subgoals };
 }

@@ -1,5 +1,5 @@
 import { isAborted, Refused, Unreachable, wordsOf } from '../api/client';
-import type { Answer, Assignment, Me, Receipt } from '../api/types';
+import type { Answer, Assignment, Me } from '../api/types';
 import type { Desk, Held, Letter } from './desk';
 import { beat, pause, visible } from './heartbeat';
 import { Mailer } from './mailer';

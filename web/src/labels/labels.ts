@@ -1,0 +1,55 @@
+import type { Answer, Answerable, Vocabulary } from '../api/types';
+import type { Command } from '../keys/registry';
+import * as hi from './hi';
+import * as lo from './lo';
+
+/** The editor of any kind of Label; an inspection has none. */
+export type Labels = hi.HiLabels | lo.LoLabels;
+
+export function newLabels(ask: Answerable): Labels | null {
+  switch (ask.kind) {
+    case 'label_hi':
+      return hi.hiLabels(ask);
+    case 'label_lo':
+    case 'label_full':
+      return lo.loLabels(ask);
+    default:
+      return null;
+  }
+}
+
+export function answerOf(labels: Labels | null): Answer | null {
+  if (labels === null) return null;
+  return labels.kind === 'label_hi' ? hi.hiAnswer(labels) : lo.loAnswer(labels);
+}
+
+/** Set the subgoal or action of that number in the vocabulary. */
+export function choose(labels: Labels, index: number, vocabulary: Vocabulary): Labels {
+  const isHi = labels.kind === 'label_hi';
+  const name = (isHi ? vocabulary.subgoals : vocabulary.actions)[index];
+  if (name === undefined) return labels;
+  return isHi ? hi.setSubgoal(labels, name) : lo.setAction(labels, name);
+}
+
+export function moveTo(labels: Labels, index: number): Labels {
+  return labels.kind === 'label_hi' ? hi.moveTo(labels, index) : lo.moveTo(labels, index);
+}
+
+/** What the keys that edit labels do. */
+export const EDITS: Partial<Record<Command, (labels: Labels) => Labels>> = {
+  accept: (labels) => (labels.kind === 'label_hi' ? hi.acceptSubgoal(labels) : lo.acceptState(labels)),
+  'accept-rest': (labels) => (labels.kind === 'label_hi' ? hi.acceptRemaining(labels) : lo.acceptRest(labels)),
+  clear: (labels) => (labels.kind === 'label_hi' ? hi.clearLast(labels) : lo.clearLast(labels)),
+  done: (labels) => (labels.kind === 'label_hi' ? labels : lo.setDone(labels)),
+  'not-done': (labels) => (labels.kind === 'label_hi' ? labels : lo.setNotDone(labels)),
+  'first-wrong': (labels) => (labels.kind === 'label_hi' ? labels : lo.markFirstWrong(labels, labels.cursor)),
+  'previous-segment': (labels) => moveTo(labels, labels.cursor - 1),
+  'next-segment': (labels) => moveTo(labels, labels.cursor + 1),
+};
+
+/** Why an edit changed nothing. */
+export const HINTS: Partial<Record<Command | 'choose', string>> = {
+  accept: 'The learner made no choice here that could be kept.',
+  'not-done': '“Not done” is for the last state; an action says the same at the others.',
+  choose: 'The last state takes no action: say whether the segment is done here.',
+};

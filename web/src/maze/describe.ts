@@ -1,0 +1,16 @@
+import type { Tape } from '../player/tape';
+import { describeCell, parseCell, type Maze } from './geometry';
+
+/** The picture in words: where each asked segment begins and ends, and where the agent is now. */
+export function describeMaze(maze: Maze, tape: Tape, at: number): string {
+  const place = (frame: number): string => {
+    const cell = parseCell(tape.frames[frame]);
+    return cell === null ? 'nowhere' : describeCell(maze, cell);
+  };
+  const asked = tape.stretches.filter((stretch) => stretch.asked);
+  const [first, last] = [asked[0], asked.at(-1)];
+  if (first === undefined || last === undefined) return 'A maze.';
+  const named = asked.length === 1 && first.subgoal !== null ? ` for subgoal ${first.subgoal}` : '';
+  const way = `It begins ${place(first.first)} and ends ${place(last.last)}`;
+  return `A maze of rooms. The way asked about${named}: ${asked.length} segments. ${way}. Now the agent is ${place(at)}.`;
+}

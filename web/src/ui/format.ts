@@ -1,0 +1,39 @@
+const NUMBER = new Intl.NumberFormat('en', { maximumFractionDigits: 2 });
+const PERCENT = new Intl.NumberFormat('en', { style: 'percent', maximumFractionDigits: 1 });
+
+/** 1,420 */
+export function number(value: number): string {
+  return NUMBER.format(value);
+}
+
+/** 84.5% or a dash. */
+export function percent(value: number | null): string {
+  return value === null ? '–' : PERCENT.format(value);
+}
+
+/** 1 unit, 12 units */
+export function units(value: number): string {
+  return count(value, 'unit');
+}
+
+/** 1 answer, 2 answers */
+export function count(value: number, noun: string): string {
+  return `${number(value)} ${noun}${value === 1 ? '' : 's'}`;
+}
+
+/** 3.1 s, 4 min, 2 h 5 min */
+export function seconds(value: number): string {
+  if (value < 60) return `${NUMBER.format(Math.round(value * 10) / 10)} s`;
+  const minutes = Math.round(value / 60);
+  if (minutes < 60) return `${minutes} min`;
+  return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+}
+
+/** just now, 5 min ago, 3 h ago, 2 d ago */
+export function ago(then: number, now: number): string {
+  const passed = now - then;
+  if (passed < 60) return 'just now';
+  if (passed < 3_600) return `${Math.floor(passed / 60)} min ago`;
+  if (passed < 86_400) return `${Math.floor(passed / 3_600)} h ago`;
+  return `${Math.floor(passed / 86_400)} d ago`;
+}
