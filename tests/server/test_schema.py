@@ -1,0 +1,97 @@
+"""The schema: what the migrations build is what the code expects, and a newer store is left alone."""
+
+import threading
+
+import pytest
+from alembic.autogenerate import compare_metadata
+from alembic.runtime.migration import MigrationContext
+from sqlalchemy import text
+
+from server.database import BadDatabase, Database, Tx, parse
+from server.schema import NewerStore
+from server.tables import metadata
+
+
+def differences(tx: Tx) -> list[object]:
+    return list(compare_metadata(MigrationContext.configure(tx.conn, opts={"compare_type": True}), metadata))
+
+
+def checks(tx: Tx) -> dict[str, int]:
+    """How many CHECK constraints each table has: autogenerate does not compare them."""
+    if tx.conn.dialect.name == "sqlite":
+        rows = tx.conn.execute(text("SELECT name, sql FROM sqlite_master WHERE type = 'table'"))
+        counts = {row.name: (row.sql or "").count("CHECK (") for row in rows}
+    else:
+        rows = tx.conn.execute(
+            text("SELECT conrelid::regclass::text AS name, count(*) AS n FROM pg_constraint WHERE contype = 'c' GROUP BY 1")
+        )
+        counts = {row.name: row.n for row in rows}
+    return {name: n for name, n in counts.items() if n and name in metadata.tables}
+
+
+def test_the_migrations_build_the_tables_the_code_expects(database_url: str) -> None:
+    db = Database(database_url)
+    try:
+        assert db.write_now(differences) == []
+        expected = {
+            name: sum(1 for one in table.constraints if type(one).__name__ == "CheckConstraint")
+            for name, table in metadata.tables.items()
+        }
+        assert db.read_now(checks) == {name: n for name, n in expected.items() if n}
+    finally:
+        db.close()
+
+
+def test_opening_a_store_again_changes_nothing(database_url: str) -> None:
+    Database(database_url).close()
+    db = Database(database_url)
+    assert db.read_now(lambda tx: tx.conn.execute(text("SELECT version_num FROM alembic_version")).scalars().all()) == [
+        "0001"
+    ]
+    db.close()
+
+
+def test_a_store_of_a_newer_version_is_refused_and_left_as_it_is(database_url: str) -> None:
+    db = Database(database_url)
+    db.write_now(lambda tx: tx.conn.execute(text("UPDATE alembic_version SET version_num = '9999'")))
+    db.close()
+    for _ in range(2):
+        with pytest.raises(NewerStore, match="schema 9999, which this version of Waypost does not know"):
+            Database(database_url)
+
+
+def test_servers_that_start_together_migrate_once(database_url: str) -> None:
+    opened: list[Database] = []
+
+    def start() -> None:
+        opened.append(Database(database_url))
+
+    threads = [threading.Thread(target=start) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(opened) == 4
+    for db in opened:
+        db.close()
+
+
+@pytest.mark.parametrize(
+    ("url", "reason"),
+    [
+        ("waypost.db", "is no database URL"),
+        ("mysql://root@localhost/x", "is no database URL|not supported"),
+        ("oracle+nothing://x", "is no database URL"),
+        ("sqlite://", "needs a file"),
+        ("sqlite:///:memory:", "needs a file"),
+        ("", "is no database URL"),
+    ],
+)
+def test_a_database_url_that_cannot_be_used_is_explained(url: str, reason: str) -> None:
+    with pytest.raises(BadDatabase, match=reason):
+        parse(url)
+
+
+def test_a_database_that_does_not_open_is_explained(tmp_path: object) -> None:
+    with pytest.raises(BadDatabase, match="Cannot open"):
+        Database(f"sqlite:///{tmp_path}/missing/waypost.db")

@@ -1,0 +1,196 @@
+"""Writers: acknowledged means committed, whatever else is in the batch and whatever fails."""
+
+import threading
+from collections.abc import Iterator
+from concurrent.futures import Future
+from typing import Any
+
+import pytest
+from sqlalchemy import Engine, create_engine, event, text
+from sqlalchemy.exc import OperationalError
+
+from server import errors
+from server.database import Database, Tx
+from server.writer import GroupCommit
+
+
+def add(name: str) -> Any:
+    return lambda conn, _topics: conn.execute(text("INSERT INTO notes VALUES (:name)"), {"name": name}).rowcount
+
+
+@pytest.fixture
+def engine(tmp_path: Any) -> Iterator[Engine]:
+    engine = create_engine(f"sqlite:///{tmp_path / 'notes.db'}", connect_args={"check_same_thread": False})
+
+    @event.listens_for(engine, "connect")
+    def connected(dbapi: Any, _record: Any) -> None:
+        dbapi.isolation_level = None
+
+    @event.listens_for(engine, "begin")
+    def begun(conn: Any) -> None:
+        conn.exec_driver_sql("BEGIN IMMEDIATE")
+
+    with engine.begin() as conn:
+        conn.execute(text("CREATE TABLE notes (name TEXT UNIQUE)"))
+    yield engine
+    engine.dispose()
+
+
+@pytest.fixture
+def writer(engine: Engine) -> Iterator[GroupCommit]:
+    writer = GroupCommit(engine, lambda _topics: None)
+    yield writer
+    writer.close()
+
+
+def names(engine: Engine) -> list[str]:
+    with engine.connect() as conn:
+        return list(conn.execute(text("SELECT name FROM notes ORDER BY name")).scalars())
+
+
+def held_up(writer: GroupCommit) -> threading.Event:
+    """Keep the writer busy until the event is set, so that what is submitted meanwhile is one batch."""
+    go, busy = threading.Event(), threading.Event()
+
+    def wait(_conn: Any, _topics: Any) -> None:
+        busy.set()
+        go.wait(10)
+
+    writer.submit(wait)
+    busy.wait(10)
+    return go
+
+
+def test_what_waits_is_committed_together(writer: GroupCommit, engine: Engine) -> None:
+    commits = []
+    event.listen(engine, "commit", lambda _conn: commits.append(1))
+    go = held_up(writer)
+    futures = [writer.submit(add(str(number))) for number in range(50)]
+    go.set()
+    assert [future.result(10) for future in futures] == [1] * 50
+    assert len(names(engine)) == 50
+    assert len(commits) == 2
+
+
+def test_one_that_fails_leaves_the_others_of_its_batch(writer: GroupCommit, engine: Engine) -> None:
+    go = held_up(writer)
+    first, twice, third = writer.submit(add("a")), writer.submit(add("a")), writer.submit(add("b"))
+    go.set()
+    assert (first.result(10), third.result(10)) == (1, 1)
+    with pytest.raises(Exception, match="UNIQUE"):
+        twice.result(10)
+    assert names(engine) == ["a", "b"]
+
+
+def test_what_a_refused_one_wrote_is_undone(writer: GroupCommit, engine: Engine) -> None:
+    def refuse(conn: Any, topics: Any) -> None:
+        add("half")(conn, topics)
+        raise errors.BudgetExhausted("no")
+
+    with pytest.raises(errors.BudgetExhausted):
+        writer.submit(refuse).result(10)
+    assert names(engine) == []
+
+
+def test_nothing_is_acknowledged_if_the_commit_fails(writer: GroupCommit, engine: Engine) -> None:
+    failing = [True]
+
+    def fail(_conn: Any) -> None:
+        if failing[0]:
+            raise OperationalError("COMMIT", {}, Exception("disk I/O error"))
+
+    event.listen(engine, "commit", fail)
+    go = held_up(writer)
+    futures = [writer.submit(add(str(number))) for number in range(3)]
+    go.set()
+    for future in futures:
+        with pytest.raises(errors.StorageFailed, match="Nothing was stored"):
+            future.result(10)
+    assert names(engine) == []
+    failing[0] = False
+    assert writer.submit(add("after")).result(10) == 1
+
+
+def test_wake_ups_follow_the_commit(engine: Engine) -> None:
+    seen: list[list[str]] = []
+    writer = GroupCommit(engine, lambda topics: seen.append([*topics, *names(engine)]))
+    writer.submit(lambda conn, topics: (add("a")(conn, topics), topics.add("queue"))).result(10)
+    writer.close()
+    assert seen == [["queue", "a"]]
+
+
+def test_a_waiter_that_gives_up_does_not_stop_the_writer(writer: GroupCommit, engine: Engine) -> None:
+    go = held_up(writer)
+    given_up: Future[int] = writer.submit(add("unwanted"))
+    assert given_up.cancel()
+    go.set()
+    assert writer.submit(add("next")).result(10) == 1
+    assert names(engine) == ["next"]
+
+
+def test_closing_finishes_what_was_submitted(engine: Engine) -> None:
+    writer = GroupCommit(engine, lambda _topics: None)
+    futures = [writer.submit(add(str(number))) for number in range(20)]
+    writer.close()
+    assert all(future.done() for future in futures)
+    assert len(names(engine)) == 20
+
+
+def test_sqlite_syncs_every_commit_to_disk(sqlite_url: str) -> None:
+    db = Database(sqlite_url)
+
+    def pragma(name: str) -> Any:
+        return lambda tx: tx.conn.exec_driver_sql(f"PRAGMA {name}").scalar_one()
+
+    assert db.write_now(pragma("synchronous")) == 2, "FULL"
+    assert db.write_now(pragma("journal_mode")) == "wal"
+    assert db.write_now(pragma("foreign_keys")) == 1
+    assert db.read_now(pragma("query_only")) == 1
+    db.close()
+
+
+def test_postgresql_syncs_every_commit_to_disk(cluster: Any) -> None:
+    db = Database(cluster.create())
+    assert db.write_now(lambda tx: tx.conn.exec_driver_sql("SHOW synchronous_commit").scalar_one()) == "on"
+    db.close()
+
+
+def test_time_is_the_databases(database_url: str) -> None:
+    import time
+
+    db = Database(database_url)
+
+    def now(tx: Tx) -> float:
+        return tx.now
+
+    before, read, after = time.time(), db.read_now(now), time.time()
+    assert before - 0.01 <= read <= after + 0.01
+    assert db.write_now(lambda tx: tx.now == tx.now)
+    db.close()
+
+
+def test_deadlocks_are_tried_again(cluster: Any) -> None:
+    db = Database(cluster.create())
+    db.write_now(lambda tx: tx.conn.exec_driver_sql("CREATE TABLE pairs AS SELECT x, 0 AS n FROM generate_series(1, 2) x"))
+    both = threading.Barrier(2, timeout=10)
+    tries = []
+
+    def cross(first: int, second: int) -> Any:
+        def work(tx: Tx) -> None:
+            tries.append(first)
+            tx.conn.execute(text("UPDATE pairs SET n = n + 1 WHERE x = :x"), {"x": first})
+            if len(tries) <= 2:
+                both.wait()
+            tx.conn.execute(text("UPDATE pairs SET n = n + 1 WHERE x = :x"), {"x": second})
+
+        return work
+
+    threads = [threading.Thread(target=db.write_now, args=(cross(a, b),)) for a, b in ((1, 2), (2, 1))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(tries) == 3
+    rows = db.read_now(lambda tx: tx.conn.exec_driver_sql("SELECT n FROM pairs").scalars().all())
+    assert rows == [2, 2]
+    db.close()
