@@ -6,101 +6,92 @@ random cell of it) until start and goal are connected; the maze is kept if their
 `corners`: start and goal are two different corner cells, as in the main text ("from one corner of the maze") and in the
 authors' stored mazes, whose door cells were drawn anew after the layout was accepted, so that paths are a little
 shorter and longer than 40 (docs/paper.md, deviation 2).
+
+About one draw in fifty is kept, so thousands are drawn at once, as arrays whose first axis is the draw.
 """
 
+from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from learner.domains.maze.maze import SIZE, Cell, Maze, Room, closed_rooms, distances_from, room_of, walls
+from learner.domains.maze.maze import ROOMS, SIZE, Maze, closed_rooms, room_of, walls
 
 SHORTEST_PATH = 40
 TRAIN_MAZES = TEST_MAZES = 1_000
 KINDS = ("random", "corners")
+DRAWS = 2_048
 
-_WALLS = tuple(walls())
-_CORNERS: tuple[Cell, ...] = ((1, 1), (1, SIZE - 2), (SIZE - 2, 1), (SIZE - 2, SIZE - 2))
+_CORNERS = ((1, 1), (1, SIZE - 2), (SIZE - 2, 1), (SIZE - 2, SIZE - 2))
 _ROOM_CELLS = tuple((r, c) for r in range(SIZE) for c in range(SIZE) if room_of((r, c)) is not None)
-# Every step from room to room takes at most 7 moves and the last room 4, so fewer rooms cannot make a long path.
-_FEWEST_CROSSINGS = (SHORTEST_PATH - 4) // 7
+_WALL_ROOMS = np.array([[ROOMS * i + j for i, j in rooms] for *rooms, _ in walls()])  # [24, 2], rooms by number
+_WALL_CELLS = np.array([cells for *_, cells in walls()])  # [24, 3, 2], where a wall can have its door
+
+Cells = NDArray[np.int64]  # [draws, 2]
+Lavas = NDArray[np.bool_]  # [draws, 17, 17]
 
 
 @cache
 def maze_set(kind: str, seed: int = 0) -> tuple[tuple[Maze, ...], tuple[Maze, ...]]:
     """Return 1,000 training and 1,000 test mazes, the same for the same kind and seed, all different."""
-    rng = np.random.default_rng([KINDS.index(kind), seed])
     mazes: dict[bytes, Maze] = {}
-    while len(mazes) < TRAIN_MAZES + TEST_MAZES:
-        maze = draw_maze(kind, rng)
+    for maze in draw_mazes(kind, np.random.default_rng([KINDS.index(kind), seed])):
         mazes[maze.lava.tobytes() + repr((maze.start, maze.goal)).encode()] = maze
+        if len(mazes) == TRAIN_MAZES + TEST_MAZES:
+            break
     drawn = tuple(mazes.values())
     return drawn[:TRAIN_MAZES], drawn[TRAIN_MAZES:]
 
 
-def draw_maze(kind: str, rng: np.random.Generator) -> Maze:
-    """Draw until a maze is accepted (about one draw in fifty is)."""
+def draw_mazes(kind: str, rng: np.random.Generator) -> Iterator[Maze]:
+    """Yield mazes that are accepted, without end."""
+    cells = np.array(_CORNERS if kind == "corners" else _ROOM_CELLS)
     while True:
-        start, goal = _ends(kind, rng)
-        doors = _doors(start, goal, rng)
-        if _crossings(doors, start, goal) < _FEWEST_CROSSINGS:
-            continue
-        lava = _with_doors(doors)
-        if distances_from(lava, start)[goal] < SHORTEST_PATH:
-            continue
+        first = rng.integers(len(cells), size=DRAWS)
+        start, goal = cells[first], cells[(first + rng.integers(1, len(cells), size=DRAWS)) % len(cells)]
+        opened = _opened_walls(start, goal, rng)
+        lava = _with_doors(opened, rng)
+        kept = ~_connected_within(SHORTEST_PATH - 1, lava, start, goal)
         if kind == "corners":
-            lava = _with_doors({wall: int(rng.integers(3)) for wall in doors})
-        return Maze(lava, start, goal)
+            lava = _with_doors(opened, rng)
+        for drawn, s, g in zip(lava[kept], start[kept].tolist(), goal[kept].tolist(), strict=True):
+            yield Maze(drawn, tuple(s), tuple(g))
 
 
-def _ends(kind: str, rng: np.random.Generator) -> tuple[Cell, Cell]:
-    cells = _CORNERS if kind == "corners" else _ROOM_CELLS
-    start, goal = rng.choice(len(cells), size=2, replace=False)
-    return cells[start], cells[goal]
+def _opened_walls(start: Cells, goal: Cells, rng: np.random.Generator) -> NDArray[np.bool_]:
+    """Give walls their doors in random order until start and goal are connected; return bool[draws, 24]."""
+    times = rng.random((DRAWS, len(_WALL_ROOMS)), np.float32)  # when each wall gets its door: a random order
+    connected = np.full((DRAWS, ROOMS**2, ROOMS**2), 2, np.float32)  # when each two rooms are
+    connected[:, *_WALL_ROOMS.T] = connected[:, *_WALL_ROOMS.T[::-1]] = times
+    for via in range(ROOMS**2):
+        np.minimum(connected, np.maximum(connected[:, :, via, None], connected[:, via, None, :]), out=connected)
+    first, last = (ROOMS * rooms[:, 0] + rooms[:, 1] for rooms in (start // ROOMS, goal // ROOMS))
+    enough = np.where(first == last, 0, connected[np.arange(DRAWS), first, last])
+    opened: NDArray[np.bool_] = times <= enough[:, None]
+    return opened
 
 
-def _doors(start: Cell, goal: Cell, rng: np.random.Generator) -> dict[int, int]:
-    """Open walls in random order until start and goal are connected; return wall -> which of its three cells."""
-    leader = {(i, j): (i, j) for i in range(4) for j in range(4)}
-
-    def find(room: Room) -> Room:
-        while leader[room] != room:
-            room = leader[room]
-        return room
-
-    first, last = room_of(start), room_of(goal)
-    assert first is not None
-    assert last is not None
-    doors: dict[int, int] = {}
-    for wall, cell in zip(
-        rng.permutation(len(_WALLS)).tolist(), rng.integers(3, size=len(_WALLS)).tolist(), strict=True
-    ):
-        if find(first) == find(last):
-            break
-        one, other, _ = _WALLS[wall]
-        leader[find(one)] = find(other)
-        doors[wall] = cell
-    return doors
-
-
-def _crossings(doors: dict[int, int], start: Cell, goal: Cell) -> int:
-    """Return how many doors the shortest chain of rooms from start to goal passes."""
-    neighbours: dict[Room, list[Room]] = {}
-    for wall in doors:
-        one, other, _ = _WALLS[wall]
-        neighbours.setdefault(one, []).append(other)
-        neighbours.setdefault(other, []).append(one)
-    first, last = room_of(start), room_of(goal)
-    seen, frontier, crossings = {first}, [first], 0
-    while last not in seen:
-        crossings += 1
-        frontier = [n for room in frontier if room for n in neighbours.get(room, ()) if n not in seen]
-        seen.update(frontier)
-    return crossings
-
-
-def _with_doors(doors: dict[int, int]) -> NDArray[np.bool_]:
-    lava = closed_rooms()
-    for wall, cell in doors.items():
-        lava[_WALLS[wall][2][cell]] = False
+def _with_doors(opened: NDArray[np.bool_], rng: np.random.Generator) -> Lavas:
+    """Put a door into a random one of the three cells of each opened wall."""
+    lava = np.tile(closed_rooms(), (DRAWS, 1, 1))
+    draw, wall = opened.nonzero()
+    rows, columns = _WALL_CELLS[wall, rng.integers(3, size=len(wall))].T
+    lava[draw, rows, columns] = False
     return lava
+
+
+def _connected_within(steps: int, lava: Lavas, start: Cells, goal: Cells) -> NDArray[np.bool_]:
+    """Return bool[draws]: does a path of at most so many steps lead from start to goal?"""
+    draws = np.arange(DRAWS)
+    reached = np.zeros_like(lava)
+    reached[draws, *start.T] = True
+    free, cells = ~lava.ravel(), reached.ravel()  # in one row, for speed: the outer walls keep the mazes apart
+    for _ in range(steps):
+        before = cells.copy()
+        for distance in (1, SIZE):
+            cells[distance:] |= before[:-distance]
+            cells[:-distance] |= before[distance:]
+        cells &= free
+    arrived: NDArray[np.bool_] = reached[draws, *goal.T]
+    return arrived
