@@ -1,0 +1,99 @@
+# Every target sets up what it needs by itself; nothing has to be typed before it.
+# Pass a command's options on with ARGS, as in: make demo ARGS="--port 8001"
+
+VENV := .venv
+PYTHON := $(VENV)/bin/python
+PIP := $(PYTHON) -m pip --disable-pip-version-check -q
+WITH_NODE := scripts/with-node
+ARGS ?=
+PYTEST_ARGS ?=
+
+.DEFAULT_GOAL := help
+.PHONY: help demo serve web test test-web lint lint-python lint-web bench clean
+.DELETE_ON_ERROR:
+
+help:
+	@echo "make demo    a server, a learner and a bot on this machine; prints one link to open"
+	@echo "make serve   the server alone"
+	@echo "make test    every check and every test"
+	@echo "make lint    the checks alone: style, types, import contracts"
+	@echo "make bench   measurements, as tables"
+	@echo "make web     build the page"
+	@echo "make clean   remove what the others made, but no store and no checkpoint"
+
+# --- what a reader types
+
+demo: $(VENV)/.learner $(if $(filter yes,$(shell scripts/page-is-current)),,web/dist/index.html)
+	@exec $(PYTHON) -m learner.cli demo $(ARGS)
+
+serve: $(VENV)/.base $(if $(filter yes,$(shell scripts/page-is-current)),,web/dist/index.html)
+	@exec $(PYTHON) -m learner.cli serve $(ARGS)
+
+web: web/dist/index.html
+
+# pytest comes last, so that its summary is the last thing said.
+test: lint test-web $(VENV)/.dev web/dist/index.html
+	@SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/postgresql
+	@chromium="$$(SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/chromium)" && \
+	  export WAYPOST_CHROMIUM="$$chromium" && exec $(PYTHON) -m pytest $(PYTEST_ARGS)
+
+test-web: web/node_modules/.stamp
+	@cd web && ../$(WITH_NODE) npm test --silent
+
+lint: lint-python lint-web
+
+lint-python: $(VENV)/.dev
+	$(PYTHON) -m ruff check
+	$(PYTHON) -m ruff format --check
+	$(PYTHON) -m mypy
+	$(VENV)/bin/lint-imports
+
+lint-web: web/node_modules/.stamp $(VENV)/.dev
+	@cd web && ../$(WITH_NODE) npm run --silent check
+	@cd web && ../$(WITH_NODE) npm run --silent format:check
+	@cd web && ../$(WITH_NODE) npm run --silent types:check
+
+bench: $(VENV)/.dev
+	@exec $(PYTHON) -m bench $(ARGS)
+
+clean:
+	rm -rf $(VENV) web/node_modules web/dist server/static .mypy_cache .ruff_cache .pytest_cache .import_linter_cache \
+	  .hypothesis build dist
+	find server learner tests bench -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# --- how it is set up; a stamp says that a step is done for what is in pyproject.toml or package-lock.json now
+
+# A virtual environment of another folder, or one whose Python is gone, is no good: forget its stamps.
+ifneq ($(shell scripts/venv-works $(VENV)),yes)
+$(shell rm -f $(VENV)/.made $(VENV)/.base $(VENV)/.learner $(VENV)/.dev)
+endif
+
+$(VENV)/.made:
+	@scripts/make-venv $(VENV)
+
+$(VENV)/.base: pyproject.toml $(VENV)/.made
+	@echo "Installing the server's Python packages."
+	@$(PIP) install -e .
+	@touch $@
+
+$(VENV)/.learner: pyproject.toml $(VENV)/.made
+	@echo "Installing the Python packages; PyTorch is large, so the first time takes a minute or more."
+	@$(PIP) install -e '.[learner]'
+	@touch $(VENV)/.base $@
+
+$(VENV)/.dev: pyproject.toml $(VENV)/.made
+	@echo "Installing the Python packages, those of the tests too; PyTorch is large, so the first time takes a minute or more."
+	@$(PIP) install -e '.[learner,dev]'
+	@touch $(VENV)/.base $(VENV)/.learner $@
+
+# Where there is no recent Node, scripts/with-node brings one into the virtual environment.
+web/node_modules/.stamp: web/package.json web/package-lock.json | $(VENV)/.made
+	@echo "Installing the page's npm packages."
+	@cd web && ../$(WITH_NODE) npm ci --no-audit --no-fund --loglevel=error
+	@touch $@
+
+web/dist/index.html: web/node_modules/.stamp web/index.html web/vite.config.ts web/svelte.config.js web/tsconfig.json \
+  $(shell find web/src web/public -type f ! -name '*.test.ts')
+	@echo "Building the page."
+	@cd web && ../$(WITH_NODE) npm run --silent build -- --logLevel warn
+	@touch $@
