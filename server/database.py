@@ -66,7 +66,7 @@ class Tx:
         self.topics.update(topics)
 
 
-class BadDatabase(Exception):  # noqa: N818 - says what it is
+class BadDatabase(Exception):
     """The database URL cannot be used; the message says why and what to do."""
 
 

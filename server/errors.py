@@ -36,7 +36,7 @@ from typing import ClassVar
 Location = Sequence[str | int]
 
 
-class Refusal(Exception):  # noqa: N818 - a refusal is no error of the server
+class Refusal(Exception):
     """The request cannot be carried out."""
 
     status: ClassVar[int] = 400

@@ -28,7 +28,7 @@ def install(app: FastAPI, folder: Path | None) -> None:
         if path == "api" or path.startswith("api/"):
             raise HTTPException(404, f"There is no {request.url.path}; /api/v1/openapi.json lists what there is.")
         root = folder or find()
-        if root is None:
+        if root is None or not (root / "index.html").is_file():
             return PlainTextResponse(MISSING, 200 if path == "" else 404)
         found = _file(root, path)
         if found is not None:

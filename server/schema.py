@@ -12,7 +12,7 @@ MIGRATIONS = Path(__file__).parent / "migrations"
 LOCK = 7_296_011  # any number of our own: servers that start together migrate one after the other
 
 
-class NewerStore(Exception):  # noqa: N818 - says what it is
+class NewerStore(Exception):
     """The store was written by a newer version."""
 
 

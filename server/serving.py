@@ -16,7 +16,7 @@ from server.settings import Settings
 GRACE_SECONDS = 2
 
 
-class CannotServe(Exception):  # noqa: N818 - says what it is
+class CannotServe(Exception):
     """The server cannot start; the message says why and what to do."""
 
 

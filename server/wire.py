@@ -19,7 +19,8 @@ RunState = Literal["running", "paused", "finished"]
 QueryState = Literal["open", "leased", "answered", "cancelled"]
 Role = Literal["admin", "learner", "annotator", "viewer"]
 
-Name = Annotated[str, Field(min_length=1, max_length=100)]
+Name = Annotated[str, Field(min_length=1, max_length=100, pattern=r"^[^\x00-\x1f\x7f]+$")]
+Note = Annotated[str, Field(max_length=500, pattern=r"^[^\x00]*$")]
 Units = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
 
 
@@ -416,7 +417,7 @@ class Release(Message):
     """Give a query back, unanswered."""
 
     token: str = Field(max_length=200)
-    reason: str = Field(default="", max_length=500, description='Why; "" when only making room for others.')
+    reason: Note = Field(default="", description='Why; "" when only making room for others.')
     skip: bool = Field(default=False, description="True: do not offer it to this annotator again.")
 
 
@@ -473,7 +474,7 @@ class TokenCreate(Message):
     """An API token for a user."""
 
     user: int
-    label: str = Field(default="", max_length=100)
+    label: Note = ""
 
 
 class NewToken(Message):

@@ -85,7 +85,9 @@ def test_a_run_has_a_bounded_number_of_open_queries(database_url: str) -> None:
 
 def test_queries_are_listed_newest_first_and_filtered(service: Service) -> None:
     run = service.learner.create_run()
-    service.learner.ask(run, *(query("label_lo" if n % 2 else "inspect_full", episode=n // 3, ordinal=n) for n in range(6)))
+    service.learner.ask(
+        run, *(query("label_lo" if n % 2 else "inspect_full", episode=n // 3, ordinal=n) for n in range(6))
+    )
     service.annotator.answer(service.annotator.lease())
 
     def ordinals(**params: object) -> list[int]:

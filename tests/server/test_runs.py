@@ -6,7 +6,7 @@ from tests.server.kit import VOCABULARY, Service, query, together
 
 
 def test_a_run_is_created_listed_and_renamed(service: Service) -> None:
-    config = {"rate": 0.5, "layers": [1, 2], "name": "grün\u0000"}
+    config = {"rate": 0.5, "layers": [1, 2], "name": "grün \u0000"}
     first = service.learner.create_run(config=config, seed=2**63 - 1, episodes=10)
     second = service.learner.create_run()
     assert [run["id"] for run in service.viewer.get("/runs")["runs"]] == [second, first]

@@ -23,7 +23,10 @@ def checks(tx: Tx) -> dict[str, int]:
         counts = {row.name: (row.sql or "").count("CHECK (") for row in rows}
     else:
         rows = tx.conn.execute(
-            text("SELECT conrelid::regclass::text AS name, count(*) AS n FROM pg_constraint WHERE contype = 'c' GROUP BY 1")
+            text(
+                "SELECT conrelid::regclass::text AS name, count(*) AS n FROM pg_constraint "
+                "WHERE contype = 'c' GROUP BY 1"
+            )
         )
         counts = {row.name: row.n for row in rows}
     return {name: n for name, n in counts.items() if n and name in metadata.tables}

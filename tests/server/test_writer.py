@@ -171,7 +171,9 @@ def test_time_is_the_databases(database_url: str) -> None:
 
 def test_deadlocks_are_tried_again(cluster: Any) -> None:
     db = Database(cluster.create())
-    db.write_now(lambda tx: tx.conn.exec_driver_sql("CREATE TABLE pairs AS SELECT x, 0 AS n FROM generate_series(1, 2) x"))
+    db.write_now(
+        lambda tx: tx.conn.exec_driver_sql("CREATE TABLE pairs AS SELECT x, 0 AS n FROM generate_series(1, 2) x")
+    )
     both = threading.Barrier(2, timeout=10)
     tries = []
 

@@ -1,0 +1,157 @@
+"""Every route is guarded, by login and by role, and described."""
+
+import json
+import subprocess
+import sys
+from typing import Any
+
+import pytest
+
+from server import wire
+from server.app import create_app
+from server.settings import Settings
+from tests.server.kit import Caller, Service
+
+OPEN = {("GET", "/healthz"), ("GET", "/readyz"), ("POST", "/api/v1/session")}
+ANYONE = {"admin", "learner", "annotator", "viewer"}
+
+# Who may call what, besides the open routes.
+MATRIX: dict[str, set[str]] = {
+    "createRun": {"admin", "learner"},
+    "patchRun": {"admin", "learner"},
+    "reportEpisodes": {"admin", "learner"},
+    "ask": {"admin", "learner"},
+    "useAnswer": {"admin", "learner"},
+    "lease": {"admin", "annotator"},
+    "myAssignments": {"admin", "annotator"},
+    "answer": {"admin", "annotator"},
+    "renew": {"admin", "annotator"},
+    "release": {"admin", "annotator"},
+    "retract": {"admin", "annotator"},
+    "listUsers": {"admin"},
+    "createUser": {"admin"},
+    "createLoginLink": {"admin"},
+    "createToken": {"admin"},
+    "revokeToken": {"admin"},
+    "listRuns": ANYONE,
+    "getRun": ANYONE,
+    "getCurves": ANYONE,
+    "getCosts": ANYONE,
+    "streamEvents": ANYONE,
+    "listQueries": ANYONE,
+    "getQuery": ANYONE,
+    "listAnswers": ANYONE,
+    "me": ANYONE,
+    "metrics": ANYONE,
+    "logout": ANYONE,
+}
+
+
+def document() -> dict[str, Any]:
+    return create_app(Settings(database="sqlite:///never-opened.db")).openapi()
+
+
+def operations() -> list[tuple[str, str, str]]:
+    return [
+        (method.upper(), path, operation["operationId"])
+        for path, item in document()["paths"].items()
+        for method, operation in item.items()
+    ]
+
+
+def called(service: Service, method: str, path: str, headers: dict[str, str]) -> int:
+    for name in ("run", "query", "assignment", "user", "token"):
+        path = path.replace(f"{{{name}}}", "1")
+    body = {"json": {}} if method in {"POST", "PATCH"} else {}
+    return service.client.request(method, path, headers=headers, **body).status_code
+
+
+def all_routes(routes: Any, prefix: str = "") -> set[tuple[str, str]]:
+    """Every method and path the app really serves, through whatever nests its routers."""
+    found: set[tuple[str, str]] = set()
+    for route in routes:
+        nested = getattr(route, "original_router", None) or getattr(route, "app", None)
+        if getattr(route, "methods", None):
+            found |= {(method, prefix + route.path) for method in route.methods - {"HEAD"}}
+        elif nested is not None and hasattr(nested, "routes"):
+            inner = getattr(route, "include_context", None)
+            found |= all_routes(nested.routes, prefix + (getattr(inner, "prefix", "") or ""))
+        else:
+            raise AssertionError(f"unknown kind of route: {route!r}")
+    return found
+
+
+def test_the_app_serves_nothing_that_is_not_described() -> None:
+    app = create_app(Settings(database="sqlite:///never-opened.db"))
+    described = {(method, path) for method, path, _ in operations()}
+    assert all_routes(app.routes) - described == {("GET", "/api/v1/openapi.json"), ("GET", "/{path:path}")}
+
+
+def test_every_route_needs_a_login_but_health_and_login_itself(lite: Service) -> None:
+    for method, path, name in operations():
+        if (method, path) in OPEN:
+            continue
+        for headers in ({}, {"Authorization": "Bearer wp_wrong"}):
+            assert called(lite, method, path, headers) == 401, name
+
+
+def test_each_role_may_call_what_is_its_own_and_nothing_else(lite: Service) -> None:
+    callers: dict[str, Caller] = {
+        "admin": lite.admin,
+        "learner": lite.learner,
+        "annotator": lite.annotator,
+        "viewer": lite.viewer,
+    }
+    for method, path, name in operations():
+        if (method, path) in OPEN:
+            continue
+        for role, caller in callers.items():
+            refused = called(lite, method, path, caller.headers) == 403
+            assert refused != (role in MATRIX[name]), f"{role} {name}"
+
+
+def test_every_operation_has_a_short_name_and_says_what_may_go_wrong() -> None:
+    for path, item in document()["paths"].items():
+        for operation in item.values():
+            assert operation["operationId"].isalnum(), path
+            assert operation["summary"], path
+            assert operation["description"], path
+            for status, response in operation["responses"].items():
+                if status >= "400":
+                    assert list(response["content"]) == ["application/problem+json"], path
+
+
+def test_answers_and_questions_are_tagged_unions() -> None:
+    schemas = document()["components"]["schemas"]
+    asked = schemas["Query"]["properties"]["ask"]
+    assert set(asked["discriminator"]["mapping"]) == set(wire.Kind.__args__)
+    assert not [name for name in schemas if "-" in name]
+    for name, schema in asked["discriminator"]["mapping"].items():
+        assert schema.removeprefix("#/components/schemas/") in schemas, name
+
+
+def test_what_the_server_sends_has_no_optional_fields() -> None:
+    schemas = document()["components"]["schemas"]
+    for name in ("Run", "Query", "Assignment", "Receipt", "Costs", "Curves", "AskLabelLo", "Prices", "Me"):
+        assert set(schemas[name]["required"]) == set(schemas[name]["properties"]), name
+
+
+def test_the_document_is_printed() -> None:
+    done = subprocess.run([sys.executable, "-m", "server.openapi"], capture_output=True, check=True)
+    assert json.loads(done.stdout) == document()
+
+
+def test_the_document_is_served_to_everybody(lite: Service) -> None:
+    assert lite.client.get("/api/v1/openapi.json").json()["info"]["title"] == "Waypost"
+
+
+@pytest.mark.parametrize("path", ["/healthz", "/readyz"])
+def test_health_is_open(service: Service, path: str) -> None:
+    assert service.client.get(path).json()["status"] == "ok"
+
+
+def test_metrics_count_what_the_store_holds(service: Service) -> None:
+    service.learner.create_run()
+    text = service.client.get("/metrics", headers=service.viewer.headers).text
+    assert 'waypost_runs{state="running"} 1' in text
+    assert "# TYPE waypost_answers_total counter" in text
