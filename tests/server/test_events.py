@@ -1,0 +1,112 @@
+"""Events: every change of a run, in order, from any cursor on, until the server stops."""
+
+import json
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import httpx2
+import pytest
+
+from server import serving
+from server.settings import Settings
+from tests.server.kit import API, Caller, Service, query
+
+Start = Callable[[Settings], serving.Served]
+
+
+@pytest.fixture
+def real(database_url: str, start_server: Start) -> Iterator[Service]:
+    """A service behind a real socket."""
+    served = start_server(Settings(database=database_url))
+    with httpx2.Client(base_url=served.url, timeout=30) as client:
+        yield Service(client, served.db)
+
+
+def events(caller: Caller, run: str, n: int, after: int | None = 0, **headers: str) -> list[dict[str, Any]]:
+    """Read n events off the stream."""
+    params = {} if after is None else {"after": after}
+    found: list[dict[str, Any]] = []
+    url = f"{API}/runs/{run}/events"
+    with caller.client.stream("GET", url, params=params, headers=caller.headers | headers) as reply:
+        assert reply.headers["content-type"].startswith("text/event-stream")
+        for line in reply.iter_lines():
+            if line.startswith("data: "):
+                found.append(json.loads(line.removeprefix("data: ")))
+                if len(found) == n:
+                    return found
+    return found
+
+
+def test_what_happens_in_a_run_is_streamed_in_order(real: Service) -> None:
+    run = real.learner.create_run()
+    (asked,) = real.learner.ask(run, query())
+    held = real.annotator.lease()
+    real.annotator.answer(held)
+    again = real.annotator.retract(held)
+    real.annotator.answer(again, {"kind": "inspect_full", "verdict": "fail"})
+    real.learner.post(f"/queries/{asked['id']}/use")
+    real.learner.ask(run, query(ordinal=1))
+    real.learner.patch(run, state="finished")
+    found = events(real.viewer, run, 8)
+    names = ["run", "asked", "answered", "retracted", "answered", "used", "asked", "cancelled"]
+    assert [event["event"] for event in found] == names
+    assert [event["id"] for event in found] == sorted(event["id"] for event in found)
+    assert found[2]["data"] == {"query": asked["id"], "answer": 1, "kind": "inspect_full", "episode": 0, "units": 1.0}
+    last_seen = str(found[5]["id"])
+    assert [e["event"] for e in events(real.viewer, run, 2, **{"Last-Event-ID": last_seen})] == names[6:]
+
+
+def test_a_stream_brings_news_at_once(real: Service) -> None:
+    run = real.learner.create_run()
+    arrived: list[float] = []
+
+    def read() -> None:
+        events(real.viewer, run, 1, after=None)
+        arrived.append(time.monotonic())
+
+    reader = threading.Thread(target=read)
+    reader.start()
+    time.sleep(0.7)
+    asked = time.monotonic()
+    real.learner.ask(run, query())
+    reader.join()
+    assert arrived[0] - asked < 0.45
+
+
+def test_open_streams_and_waits_do_not_hold_the_server_up(sqlite_url: str) -> None:
+    done: list[int] = []
+    with serving.background(Settings(database=sqlite_url)) as served, httpx2.Client(base_url=served.url, timeout=30) as c:
+        service = Service(c, served.db)
+        run = service.learner.create_run()
+
+        def follow() -> None:
+            done.append(len(events(service.viewer, run, 99)))
+
+        def wait() -> None:
+            done.append(-1 if service.annotator.lease(wait=30, expect=204) is None else 0)
+
+        threads = [threading.Thread(target=follow), threading.Thread(target=wait)]
+        for thread in threads:
+            thread.start()
+        time.sleep(0.5)
+        stopping = time.monotonic()
+    assert time.monotonic() - stopping < 2
+    for thread in threads:
+        thread.join()
+    assert sorted(done) == [-1, 1]
+
+
+def test_an_annotator_who_hangs_up_is_given_nothing(real: Service) -> None:
+    run = real.learner.create_run()
+    with pytest.raises(httpx2.ReadTimeout):
+        real.client.post(f"{API}/assignments", json={"wait": 30}, headers=real.annotator.headers, timeout=0.3)
+    time.sleep(0.3)
+    (asked,) = real.learner.ask(run, query())
+    time.sleep(0.7)
+    assert real.learner.get(f"/queries/{asked['id']}")["state"] == "open"
+
+
+def test_events_of_no_run_are_not_found(real: Service) -> None:
+    real.viewer.get("/runs/nowhere/events", 404)
