@@ -18,7 +18,7 @@ from server.settings import Settings
 _numbers = count()
 
 
-def _postgresql_binaries() -> Path | None:
+def postgresql_binaries() -> Path | None:
     """Return the folder of initdb and pg_ctl."""
     found = shutil.which("pg_ctl")
     folders = [Path(found).resolve().parent] if found else []
@@ -29,7 +29,7 @@ def _postgresql_binaries() -> Path | None:
 class Cluster:
     """A PostgreSQL cluster on a socket in a folder of its own; as root it runs as the user `postgres`."""
 
-    def __init__(self, binaries: Path, folder: Path) -> None:
+    def __init__(self, binaries: Path, folder: Path, *, fsync: bool = False) -> None:
         self._binaries = binaries
         self._folder = folder
         self._account: dict[str, Any] = {}
@@ -37,7 +37,8 @@ class Cluster:
             self._account = {"user": "postgres", "group": "postgres", "extra_groups": []}
             shutil.chown(folder, "postgres", "postgres")
         data = str(folder / "data")
-        options = f"-c listen_addresses='' -c unix_socket_directories={folder} -c fsync=off -c max_connections=200"
+        sync = "on" if fsync else "off"
+        options = f"-c listen_addresses='' -c unix_socket_directories={folder} -c fsync={sync} -c max_connections=200"
         self._run("initdb", "--no-sync", "-A", "trust", "-U", "postgres", "-E", "UTF8", "--locale=C", "-D", data)
         self._run("pg_ctl", "-w", "-D", data, "-l", str(folder / "log"), "-o", options, "start")
 
@@ -68,7 +69,7 @@ class Cluster:
 @pytest.fixture(scope="session")
 def cluster() -> Iterator[Cluster]:
     """A PostgreSQL cluster; skips where PostgreSQL is not installed."""
-    binaries = _postgresql_binaries()
+    binaries = postgresql_binaries()
     if binaries is None:
         pytest.skip("no PostgreSQL binaries (initdb, pg_ctl) on this machine")
     with tempfile.TemporaryDirectory(prefix="wp") as folder:

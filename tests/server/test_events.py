@@ -77,24 +77,26 @@ def test_a_stream_brings_news_at_once(real: Service) -> None:
 
 def test_open_streams_and_waits_do_not_hold_the_server_up(sqlite_url: str) -> None:
     done: list[int] = []
-    with serving.background(Settings(database=sqlite_url)) as served, httpx2.Client(base_url=served.url, timeout=30) as c:
-        service = Service(c, served.db)
-        run = service.learner.create_run()
+    with httpx2.Client(timeout=30) as client:
+        with serving.background(Settings(database=sqlite_url)) as served:
+            client.base_url = served.url
+            service = Service(client, served.db)
+            run = service.learner.create_run()
 
-        def follow() -> None:
-            done.append(len(events(service.viewer, run, 99)))
+            def follow() -> None:
+                done.append(len(events(service.viewer, run, 99)))
 
-        def wait() -> None:
-            done.append(-1 if service.annotator.lease(wait=30, expect=204) is None else 0)
+            def wait() -> None:
+                done.append(-1 if service.annotator.lease(wait=30, expect=204) is None else 0)
 
-        threads = [threading.Thread(target=follow), threading.Thread(target=wait)]
+            threads = [threading.Thread(target=follow), threading.Thread(target=wait)]
+            for thread in threads:
+                thread.start()
+            time.sleep(0.5)
+            stopping = time.monotonic()
+        assert time.monotonic() - stopping < 2
         for thread in threads:
-            thread.start()
-        time.sleep(0.5)
-        stopping = time.monotonic()
-    assert time.monotonic() - stopping < 2
-    for thread in threads:
-        thread.join()
+            thread.join()
     assert sorted(done) == [-1, 1]
 
 

@@ -1,0 +1,207 @@
+"""How many lease-and-answer cycles a second the server does, and how long each takes: `python bench/assignments.py`.
+
+A real server process over loopback, queries of about 2 kB, annotators without think time. A cycle is one lease and one
+answer, each acknowledged on disk; in a chain, the answer's reply carries the next lease and a cycle is one call.
+Prints a table per database; asserts nothing.
+"""
+
+import argparse
+import json
+import os
+import platform
+import sqlite3
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+import httpx2
+
+from server import people
+from server.database import Database
+from tests.conftest import Cluster, postgresql_binaries
+
+ANNOTATORS = (1, 8, 32)
+BATCH = 500  # queries asked at a time
+BACKLOG = 3_000  # queries kept open
+VOCABULARY = {"domain": "bench", "subgoals": ["here"], "actions": ["up", "down"], "renderer": "none"}
+HEADER = "| database | mode | annot. | cycles/s | p50 ms | p99 ms | max ms | server CPU ms/cycle | duplicates |"
+
+
+def query(number: int) -> dict[str, Any]:
+    """A question of about 2 kB: a segment of 20 steps on a 17 x 17 grid."""
+    cells = [[(number * 31 + row * 17 + column) % 97 for column in range(17)] for row in range(2)]
+    states = [{"at": [step % 17, number % 17], "facing": step % 4, "seen": cells[step % 2]} for step in range(21)]
+    segment = {"subgoal": "here", "states": states, "actions": ["up"] * 20}
+    asked = {"kind": "inspect_lo", "episode": number // 100, "ordinal": number % 100, "question": "Did it get there?"}
+    return asked | {"instance": {"cells": cells}, "segments": [segment]}
+
+
+@contextmanager
+def serving(database: str) -> Iterator[tuple[str, int, dict[str, str], list[dict[str, str]]]]:
+    """Run `serve` in a process; yields its address, its process id, and the headers of a learner and annotators."""
+    db = Database(database)
+
+    def headers(name: str, role: Any) -> dict[str, str]:
+        user = db.write_now(lambda tx: people.ensure_user(tx, name, role))
+        return {"Authorization": f"Bearer {db.write_now(lambda tx: people.create_token(tx, user.id, '')).token}"}
+
+    learner = headers("learner", "learner")
+    annotators = [headers(f"annotator{n}", "annotator") for n in range(max(ANNOTATORS))]
+    db.close()
+    command = [sys.executable, "-u", "-m", "server.cli", "serve", "--port", "0", "--database", database]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        url = process.stdout.readline().split()[-1]
+        _wait_until_ready(url)
+        try:
+            yield url, process.pid, learner, annotators
+        finally:
+            process.terminate()
+
+
+def _wait_until_ready(url: str) -> None:
+    while True:
+        try:
+            httpx2.get(f"{url}/readyz")
+        except httpx2.TransportError:
+            time.sleep(0.05)
+        else:
+            return
+
+
+class Learner(threading.Thread):
+    """Keeps the queue full."""
+
+    def __init__(self, url: str, headers: dict[str, str]) -> None:
+        super().__init__(daemon=True)
+        self._client = httpx2.Client(base_url=f"{url}/api/v1", headers=headers, timeout=60)
+        body = {"name": "bench", "algorithm": "bench", "seed": 0, "vocabulary": VOCABULARY}
+        self.run_id = self._client.post("/runs", json=body).json()["id"]
+        self._asked = 0
+        self._stopping = threading.Event()
+        while self._asked < BACKLOG:
+            self._ask()
+
+    def _ask(self) -> None:
+        body = {"queries": [query(self._asked + n) for n in range(BATCH)]}
+        self._client.post(f"/runs/{self.run_id}/queries", json=body).raise_for_status()
+        self._asked += BATCH
+
+    def run(self) -> None:
+        while not self._stopping.wait(0.5):
+            if self._client.get(f"/runs/{self.run_id}").json()["open_queries"] < BACKLOG - BATCH:
+                self._ask()
+
+    def stop(self) -> None:
+        self._stopping.set()
+        self.join()
+        self._client.patch(f"/runs/{self.run_id}", json={"state": "finished"})
+
+
+def annotate(url: str, headers: dict[str, str], run: str, until: float, chained: bool) -> tuple[list[float], list[int]]:
+    """Answer until the time is up; returns each cycle's seconds and the queries answered."""
+    seconds: list[float] = []
+    answered: list[int] = []
+    held: dict[str, Any] | None = None
+    with httpx2.Client(base_url=f"{url}/api/v1", headers=headers, timeout=60) as client:
+        while time.perf_counter() < until:
+            start = time.perf_counter()
+            if held is None:
+                held = client.post("/assignments", json={"run": run, "wait": 5}).json()
+            body: dict[str, Any] = {"token": held["token"], "answer": {"kind": "inspect_lo", "verdict": "pass"}}
+            if chained:
+                body["next"] = {"run": run, "wait": 5}
+            receipt = client.post(f"/assignments/{held['id']}/answer", json=body).raise_for_status().json()
+            seconds.append(time.perf_counter() - start)
+            answered.append(receipt["query"])
+            held = receipt["next"]
+    return seconds, answered
+
+
+def cpu_seconds(pid: int) -> float:
+    """Return the CPU time a process has used (Linux)."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def row(name: str, database: str, n: int, seconds: float, chained: bool) -> str:
+    """Measure one line of the table."""
+    with serving(database) as (url, pid, learner_headers, annotators):
+        learner = Learner(url, learner_headers)
+        learner.start()
+        before, until = cpu_seconds(pid), time.perf_counter() + seconds
+        with ThreadPoolExecutor(n) as pool:
+            done = list(pool.map(lambda k: annotate(url, annotators[k], learner.run_id, until, chained), range(n)))
+        cpu = cpu_seconds(pid) - before
+        learner.stop()
+    times = sorted(1_000 * one for cycle_times, _ in done for one in cycle_times)
+    answered = [one for _, queries in done for one in queries]
+    p99 = times[min(len(times) - 1, int(0.99 * len(times)))]
+    mode = "chained" if chained else "lease + answer"
+    duplicates = len(answered) - len(set(answered))
+    return (
+        f"| {name} | {mode} | {n} | {len(times) / seconds:.0f} | {statistics.median(times):.1f} | {p99:.1f} | "
+        f"{times[-1]:.0f} | {1_000 * cpu / len(times):.1f} | {duplicates}/{len(answered)} |"
+    )
+
+
+def raw_commits(folder: Path, seconds: float = 2.0) -> float:
+    """Return how many one-row commits a second SQLite itself does on the same disk with synchronous=FULL."""
+    db = sqlite3.connect(folder / "raw.db", isolation_level=None)
+    db.execute("PRAGMA journal_mode = WAL")
+    db.execute("PRAGMA synchronous = FULL")
+    db.execute("CREATE TABLE t (x)")
+    start, n = time.perf_counter(), 0
+    while time.perf_counter() < start + seconds:
+        db.execute("INSERT INTO t VALUES (1)")
+        n += 1
+    db.close()
+    return n / seconds
+
+
+def machine() -> str:
+    """Name the machine, as the numbers mean nothing without it."""
+    cpus = Path("/proc/cpuinfo")
+    lines = cpus.read_text().splitlines() if cpus.exists() else []
+    model = next((line.partition(": ")[2] for line in lines if line.startswith("model name")), platform.processor())
+    load = ", ".join(f"{one:.1f}" for one in os.getloadavg())
+    return f"{model}, {os.cpu_count()} cores, load {load}, Python {platform.python_version()}, SQLite {sqlite3.sqlite_version}"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--seconds", type=float, default=10.0, help="per row")
+    parser.add_argument("--annotators", type=int, nargs="+", default=list(ANNOTATORS))
+    parser.add_argument("--databases", nargs="+", default=["SQLite", "PostgreSQL"])
+    options = parser.parse_args()
+    print(machine())
+    print(f"A query is {len(json.dumps(query(1)))} bytes; {options.seconds:g} s per row; the clients share the cores.\n")
+    print(HEADER)
+    print("|---" * HEADER.count(" | ") + "|---|")
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="wp", dir=Path.cwd())))
+        targets = {"SQLite": lambda k: f"sqlite:///{folder / f'{k}.db'}"}
+        binaries = postgresql_binaries()
+        if binaries is not None:
+            cluster_folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="wp")))
+            cluster = Cluster(binaries, cluster_folder, fsync=True)
+            stack.callback(cluster.stop)
+            targets["PostgreSQL"] = lambda _: cluster.create()
+        for name in options.databases:
+            for chained in (False, True):
+                for n in options.annotators:
+                    if name in targets:
+                        print(row(name, targets[name](f"{n}{chained}"), n, options.seconds, chained), flush=True)
+        print(f"\nThe limit: SQLite alone does {raw_commits(folder):.0f} commits/s on this disk (WAL, FULL, one row).")
+
+
+if __name__ == "__main__":
+    main()
