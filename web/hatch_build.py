@@ -1,4 +1,4 @@
-"""Build hook: a wheel carries the built page as `server/static`."""
+"""Hatchling hook: puts the built page into the wheel, as `server/static`."""
 
 import shutil
 import subprocess
@@ -8,22 +8,33 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 
-class PageBuildHook(BuildHookInterface[Any]):
-    """Builds the page with npm when it has not been built; an editable install leaves that to `make web`."""
+class PageBuildHook(BuildHookInterface):
+    """Builds the page if it is not built; an editable install serves `web/dist` and needs nothing."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Put web/dist into the wheel.
-
-        Raises:
-            RuntimeError: the page must be built and npm is not there.
-        """
-        if version == "editable":
+        """Build the page and have the wheel include it."""
+        if version == "editable" or self.target_name != "wheel":
             return
         web = Path(self.root) / "web"
-        if not (web / "dist" / "index.html").exists():
-            npm = shutil.which("npm")
-            if npm is None:
-                raise RuntimeError("npm is needed to build the page (Node 20.19 or newer), and it is not on the PATH")
-            subprocess.run([npm, "ci"], cwd=web, check=True)
-            subprocess.run([npm, "run", "build"], cwd=web, check=True)
-        build_data["force_include"][str(web / "dist")] = "server/static"
+        built = web / "dist"
+        if not (built / "index.html").is_file():
+            build_page(web)
+        build_data["force_include"][str(built)] = "server/static"
+
+
+def build_page(web: Path) -> None:
+    """Run npm.
+
+    Raises:
+        RuntimeError: if there is no npm, or it fails.
+    """
+    npm = shutil.which("npm")
+    if npm is None:
+        raise RuntimeError(
+            "Waypost's page is not built and npm is not on PATH. Install Node.js 20.19 or newer, "
+            "or build web/dist elsewhere (npm ci && npm run build in web/) and copy it here."
+        )
+    for arguments in (["ci"], ["run", "build"]):
+        done = subprocess.run([npm, *arguments], cwd=web, check=False)
+        if done.returncode != 0:
+            raise RuntimeError(f"`npm {' '.join(arguments)}` failed in {web}; its output above says why.")

@@ -45,7 +45,8 @@ class Router {
     const plain = event.button === 0 && !event.ctrlKey && !event.metaKey && !event.shiftKey && !event.altKey;
     const link = event.target instanceof Element ? event.target.closest('a') : null;
     if (!plain || event.defaultPrevented || link === null || link.target !== '') return;
-    if (link.origin !== location.origin || link.hasAttribute('download') || link.pathname.startsWith('/api/')) return;
+    if (link.origin !== location.origin || link.hasAttribute('download') || link.pathname.startsWith('/api/'))
+      return;
     event.preventDefault();
     this.go(link.pathname + link.search);
   }

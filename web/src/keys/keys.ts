@@ -19,6 +19,8 @@ const PRINTED: Readonly<Record<string, string>> = {
   ArrowUp: '↑',
   ArrowDown: '↓',
   ' ': 'Space',
+  Backspace: '⌫',
+  Enter: '↵',
 };
 
 /** How a key is printed on a button. */
@@ -39,10 +41,21 @@ export function belongsToElement(target: Element | null, key: string): boolean {
   if (field instanceof HTMLInputElement && field.type === 'range') return SLIDER_KEYS.has(key);
   if (field !== null) return true;
   const pressable = target.closest('button, a[href], summary');
-  return pressable !== null && (key === 'Enter' || key === ' ') && pressable.closest('[data-hotkeys]') === null;
+  return (
+    pressable !== null && (key === 'Enter' || key === ' ') && pressable.closest('[data-hotkeys]') === null
+  );
 }
 
-const SLIDER_KEYS = new Set(['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'Home', 'End', 'PageUp', 'PageDown']);
+const SLIDER_KEYS = new Set([
+  'ArrowLeft',
+  'ArrowRight',
+  'ArrowUp',
+  'ArrowDown',
+  'Home',
+  'End',
+  'PageUp',
+  'PageDown',
+]);
 
 /** What a key press means among these bindings, or null where it means nothing here. */
 export function match(press: KeyPress, target: Element | null, bindings: readonly Binding[]): Binding | null {

@@ -61,7 +61,13 @@ const HELP: Binding = { command: 'help', keys: ['?'], label: 'Show every key', g
 /** What works on every view. */
 export const PAGE_BINDINGS: readonly Binding[] = [HELP];
 
-const UNDO: Binding = { command: 'undo', keys: ['u'], label: 'Undo my last answer', group: 'Task', once: true };
+const UNDO: Binding = {
+  command: 'undo',
+  keys: ['u'],
+  label: 'Undo my last answer',
+  group: 'Task',
+  once: true,
+};
 
 const TASK: readonly Binding[] = [
   { command: 'skip', keys: ['s', 'Shift+s'], label: 'Skip, with a reason', group: 'Task', once: true },
@@ -83,8 +89,20 @@ const PLAYER: readonly Binding[] = [
 ];
 
 const ACCEPT: readonly Binding[] = [
-  { command: 'accept', keys: ['Enter'], label: "Keep the learner's choice; at the end, submit", group: 'Answer', once: true },
-  { command: 'accept-rest', keys: ['Shift+Enter'], label: "Keep all the learner's other choices and submit", group: 'Answer', once: true },
+  {
+    command: 'accept',
+    keys: ['Enter'],
+    label: "Keep the learner's choice; at the end, submit",
+    group: 'Answer',
+    once: true,
+  },
+  {
+    command: 'accept-rest',
+    keys: ['Shift+Enter'],
+    label: "Keep all the learner's other choices and submit",
+    group: 'Answer',
+    once: true,
+  },
   { command: 'clear', keys: ['Backspace'], label: 'Take back the last label', group: 'Answer' },
 ];
 
@@ -105,14 +123,38 @@ function answerBindings(mode: Mode): readonly Binding[] {
     case 'label_lo':
       return [
         ...ACCEPT,
-        { command: 'first-wrong', keys: ['x'], label: 'First wrong step: all before it are right', group: 'Answer', once: true },
-        { command: 'done', keys: ['d'], label: 'Done here: the segment should end at this state', group: 'Answer', once: true },
-        { command: 'not-done', keys: ['n'], label: 'Not done, even at the last state', group: 'Answer', once: true },
+        {
+          command: 'first-wrong',
+          keys: ['x'],
+          label: 'First wrong step: all before it are right',
+          group: 'Answer',
+          once: true,
+        },
+        {
+          command: 'done',
+          keys: ['d'],
+          label: 'Done here: the segment should end at this state',
+          group: 'Answer',
+          once: true,
+        },
+        {
+          command: 'not-done',
+          keys: ['n'],
+          label: 'Not done, even at the last state',
+          group: 'Answer',
+          once: true,
+        },
       ];
     case 'label_full':
       return [
         ...ACCEPT,
-        { command: 'first-wrong', keys: ['x'], label: 'First wrong step: all before it are right', group: 'Answer', once: true },
+        {
+          command: 'first-wrong',
+          keys: ['x'],
+          label: 'First wrong step: all before it are right',
+          group: 'Answer',
+          once: true,
+        },
       ];
     case 'waiting':
       return [];
@@ -134,7 +176,11 @@ function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
     return vocabulary.subgoals.map((name, index) => {
       const letter = initials[index] ?? '';
       const unique = initials.indexOf(letter) === initials.lastIndexOf(letter);
-      return choice(name, index, unique && /^[a-z]$/.test(letter) && !reserved.has(letter) ? letter : undefined);
+      return choice(
+        name,
+        index,
+        unique && /^[a-z]$/.test(letter) && !reserved.has(letter) ? letter : undefined,
+      );
     });
   }
   if (mode === 'label_lo' || mode === 'label_full') {
@@ -156,5 +202,8 @@ export function readable(name: string): string {
 
 /** The letter a subgoal goes by: N for north, T for go_to_target. */
 export function initial(name: string): string {
-  return name.replace(/^(go_)?to_/i, '').charAt(0).toUpperCase();
+  return name
+    .replace(/^(go_)?to_/i, '')
+    .charAt(0)
+    .toUpperCase();
 }

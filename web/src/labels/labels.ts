@@ -38,7 +38,8 @@ export function moveTo(labels: Labels, index: number): Labels {
 /** What the keys that edit labels do. */
 export const EDITS: Partial<Record<Command, (labels: Labels) => Labels>> = {
   accept: (labels) => (labels.kind === 'label_hi' ? hi.acceptSubgoal(labels) : lo.acceptState(labels)),
-  'accept-rest': (labels) => (labels.kind === 'label_hi' ? hi.acceptRemaining(labels) : lo.acceptRest(labels)),
+  'accept-rest': (labels) =>
+    labels.kind === 'label_hi' ? hi.acceptRemaining(labels) : lo.acceptRest(labels),
   clear: (labels) => (labels.kind === 'label_hi' ? hi.clearLast(labels) : lo.clearLast(labels)),
   done: (labels) => (labels.kind === 'label_hi' ? labels : lo.setDone(labels)),
   'not-done': (labels) => (labels.kind === 'label_hi' ? labels : lo.setNotDone(labels)),

@@ -134,7 +134,10 @@ export function loAnswer(labels: LoLabels): AnswerOf<'label_lo' | 'label_full'> 
 }
 
 function isOpen(labels: LoLabels, state: number): boolean {
-  if (labels.end !== null && (labels.end === 'never' ? state === labels.actions.length : state >= labels.end)) {
+  if (
+    labels.end !== null &&
+    (labels.end === 'never' ? state === labels.actions.length : state >= labels.end)
+  ) {
     return false;
   }
   return state === labels.actions.length || labels.actions[state] === null;

@@ -19,9 +19,10 @@ export function drawMaze(brush: Brush, picture: Picture): void {
   drawCells(brush, picture);
   drawTarget(brush, picture);
   for (const stretch of picture.scene.tape.stretches) drawTrail(brush, picture, stretch);
-  for (const stretch of picture.scene.tape.stretches) drawMarker(brush, picture, stretch);
+  drawEnd(brush, picture);
   for (const label of picture.scene.labels) drawLabel(brush, picture, label);
   drawAgent(brush, picture);
+  for (const stretch of inFront(picture.scene)) drawMarker(brush, picture, stretch);
 }
 
 function drawCells(brush: Brush, { maze, palette, size }: Picture): void {
@@ -66,7 +67,8 @@ function drawTrail(brush: Brush, picture: Picture, stretch: Stretch): void {
   strokeFrames(brush, picture, stretch, stretch.first, seen, unit * 0.17);
   brush.globalAlpha = stretch.asked ? 0.75 : 0.3;
   strokeFrames(brush, picture, stretch, seen, stretch.last, unit * 0.07);
-  for (let frame = stretch.first; frame < stretch.last; frame++) drawArrowhead(brush, picture, stretch, frame);
+  for (let frame = stretch.first; frame < stretch.last; frame++)
+    drawArrowhead(brush, picture, stretch, frame);
   brush.globalAlpha = 1;
 }
 
@@ -107,18 +109,43 @@ function fillTriangle(brush: Brush, [x, y]: readonly [number, number], [dy, dx]:
   brush.fill();
 }
 
-/** Where a subgoal was decided: its number and letter. */
+/** Where it all ended: a cross in lava, a ring elsewhere. */
+function drawEnd(brush: Brush, picture: Picture): void {
+  const { maze, palette, scene } = picture;
+  const cell = cellAt(picture, scene.tape.frames.length - 1);
+  if (cell === null) return;
+  const unit = unitOf(picture);
+  const [x, y] = centre(picture, cell, 0);
+  const burnt = isLava(maze, cell);
+  brush.beginPath();
+  if (burnt) {
+    for (const side of [-1, 1]) {
+      brush.moveTo(x - unit * 0.22, y - unit * 0.22 * side);
+      brush.lineTo(x + unit * 0.22, y + unit * 0.22 * side);
+    }
+  } else brush.arc(x, y, unit * 0.22, 0, 2 * Math.PI);
+  brush.strokeStyle = burnt ? palette.map.burnt : palette.map.agent;
+  brush.lineWidth = unit * 0.09;
+  brush.stroke();
+}
+
+/** The stretch in question last, so that no other marker covers its own. */
+function inFront({ tape, current }: Scene): Stretch[] {
+  return tape.stretches.toSorted((a, b) => Number(a.index === current) - Number(b.index === current));
+}
+
+/** Where a subgoal was decided: its number and letter, at the corner of the cell. */
 function drawMarker(brush: Brush, picture: Picture, stretch: Stretch): void {
   const cell = cellAt(picture, stretch.first);
   if (cell === null || stretch.subgoal === null) return;
   const { palette, scene } = picture;
   const unit = unitOf(picture);
-  const [x, y] = centre(picture, cell, trailOffset(stretch.index));
+  const [x, y] = centre(picture, cell, -0.36);
   const text = `${stretch.index + 1}${initial(stretch.subgoal)}`;
   const isCurrent = scene.current === stretch.index;
-  brush.font = `700 ${Math.round(unit * 0.36)}px system-ui, sans-serif`;
-  const width = Math.max(unit * 0.62, brush.measureText(text).width + unit * 0.2);
-  const height = unit * 0.54;
+  brush.font = `700 ${Math.round(unit * 0.34)}px system-ui, sans-serif`;
+  const width = Math.max(unit * 0.56, brush.measureText(text).width + unit * 0.18);
+  const height = unit * 0.48;
   brush.globalAlpha = stretch.asked ? 1 : 0.55;
   brush.fillStyle = colorOf(picture, stretch);
   brush.beginPath();
@@ -126,7 +153,7 @@ function drawMarker(brush: Brush, picture: Picture, stretch: Stretch): void {
   brush.fill();
   if (isCurrent) {
     brush.strokeStyle = palette.map.agent;
-    brush.lineWidth = unit * 0.1;
+    brush.lineWidth = unit * 0.09;
     brush.stroke();
   }
   brush.fillStyle = palette.map['marker-text'];

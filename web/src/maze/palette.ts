@@ -1,6 +1,18 @@
 import { readColor } from '../ui/colors';
 
-const NAMES = ['floor', 'grid', 'door', 'lava', 'target', 'agent', 'agent-edge', 'label', 'label-edge', 'marker-text'] as const;
+const NAMES = [
+  'floor',
+  'grid',
+  'door',
+  'lava',
+  'target',
+  'agent',
+  'agent-edge',
+  'label',
+  'label-edge',
+  'marker-text',
+  'burnt',
+] as const;
 type Name = (typeof NAMES)[number];
 
 /** The colors of the map, read from the style sheet, so that they are written down once. */
@@ -12,7 +24,9 @@ export interface Palette {
 export const SUBGOAL_COLORS = 8;
 
 export function readPalette(element: Element): Palette {
-  const map = Object.fromEntries(NAMES.map((name) => [name, readColor(element, `map-${name}`)]));
-  const subgoals = Array.from({ length: SUBGOAL_COLORS }, (_, index) => readColor(element, `subgoal-${index}`));
+  const map = Object.fromEntries(NAMES.map((name) => [name, readColor(element, `var(--map-${name})`)]));
+  const subgoals = Array.from({ length: SUBGOAL_COLORS }, (_, index) =>
+    readColor(element, `var(--subgoal-${index})`),
+  );
   return { map: map as Palette['map'], subgoals };
 }

@@ -1,7 +1,7 @@
-/** The color a custom property has here and now, light or dark; for canvases, which know no custom properties. */
-export function readColor(element: Element, name: string): string {
+/** What a CSS color comes to here and now, light or dark; for canvases, which know no custom properties. */
+export function readColor(element: Element, expression: string): string {
   const probe = element.appendChild(document.createElement('span'));
-  probe.style.color = `var(--${name})`;
+  probe.style.color = expression;
   const { color } = getComputedStyle(probe);
   probe.remove();
   return color;

@@ -194,7 +194,8 @@ export class WorkSession {
   }
 
   #count(): void {
-    if (this.me) this.me = { ...this.me, answers: this.me.answers + 1, answers_today: this.me.answers_today + 1 };
+    if (this.me)
+      this.me = { ...this.me, answers: this.me.answers + 1, answers_today: this.me.answers_today + 1 };
     if (performance.now() - this.#meAt > ME_EVERY_MS) void this.#refreshMe();
   }
 

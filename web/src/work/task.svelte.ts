@@ -118,7 +118,13 @@ export class Task {
     this.#firstShowing = false;
     this.player = next;
     if (next.playing || this.labels === null || this.labels.kind === 'label_hi') return;
-    this.labels = moveTo(this.labels, Math.max(0, this.#frames.findLastIndex((frame) => frame <= next.at)));
+    this.labels = moveTo(
+      this.labels,
+      Math.max(
+        0,
+        this.#frames.findLastIndex((frame) => frame <= next.at),
+      ),
+    );
   }
 
   /** An inspection plays at once, and fast; labels begin at the first state. */
@@ -146,7 +152,14 @@ export class Task {
     const isHi = labels?.kind === 'label_hi';
     const current = isHi ? ask.context.length + labels.cursor : (stretchAt(tape, at)?.index ?? null);
     const marks = labels === null || isHi ? [] : this.#marks(labels);
-    return { instance: ask.instance, tape, vocabulary: this.#options.run.vocabulary, at, current, labels: marks };
+    return {
+      instance: ask.instance,
+      tape,
+      vocabulary: this.#options.run.vocabulary,
+      at,
+      current,
+      labels: marks,
+    };
   }
 
   #marks(labels: LoLabels): Label[] {

@@ -1,0 +1,102 @@
+"""A real browser against a real server with the built page."""
+
+import os
+import subprocess
+from collections.abc import Callable, Iterator
+from itertools import count
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from server import serving, wire
+from server.serving import Served
+from server.settings import Settings
+from tests.browser.kit import Complaints, Learner, find_chromium, log_in
+
+WEB = Path(__file__).resolve().parents[2] / "web"
+FLAGS = [
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-gpu",
+    "--disable-quic",
+    "--disable-sync",
+    "--no-first-run",
+]
+WIDE = {"width": 1440, "height": 900}
+_numbers = count()
+
+Open = Callable[..., Page]
+
+
+@pytest.fixture(scope="session")
+def built_page() -> Path:
+    """The page, built if it is missing or older than its sources."""
+    built = WEB / "dist" / "index.html"
+    sources = [WEB / "index.html", WEB / "package.json", *WEB.glob("src/**/*"), *WEB.glob("public/*")]
+    if not built.is_file() or built.stat().st_mtime < max(source.stat().st_mtime for source in sources):
+        if not (WEB / "node_modules").is_dir():
+            subprocess.run(["npm", "ci"], cwd=WEB, check=True)
+        subprocess.run(["npm", "run", "build"], cwd=WEB, check=True)
+    return built.parent
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """Chromium: WAYPOST_CHROMIUM, else the system's, else Playwright's own."""
+    with sync_playwright() as playwright:
+        executable = find_chromium(os.environ.get("WAYPOST_CHROMIUM"))
+        browser = playwright.chromium.launch(executable_path=executable, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="session")
+def served(built_page: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """A server for all tests; each test works on its own run."""
+    store = tmp_path_factory.mktemp("store") / "waypost.db"
+    with serving.background(Settings(database=f"sqlite:///{store}", page=built_page)) as served:
+        yield served
+
+
+@pytest.fixture
+def learner(served: Served) -> Learner:
+    """The learner's side."""
+    return Learner(served)
+
+
+@pytest.fixture
+def complaints() -> Iterator[Complaints]:
+    """What the browser complains of; a test fails if it did not expect it."""
+    complaints = Complaints()
+    yield complaints
+    complaints.check()
+
+
+@pytest.fixture
+def open_page(browser: Browser, served: Served, complaints: Complaints) -> Iterator[Open]:
+    """Open an address as a new person in a fresh browser context."""
+    contexts = []
+
+    def open_(
+        path: str,
+        role: wire.Role | None = "annotator",
+        at: Served | None = None,
+        scheme: str = "light",
+        size: dict[str, int] = WIDE,
+        motion: str = "no-preference",
+    ) -> Page:
+        server = at or served
+        context = browser.new_context(base_url=server.url, viewport=size, color_scheme=scheme, reduced_motion=motion)
+        context.set_default_timeout(10_000)
+        contexts.append(context)
+        page = context.new_page()
+        complaints.listen(page)
+        if role is not None:
+            log_in(context, server, f"person-{next(_numbers)}", role)
+        page.goto(path)
+        return page
+
+    yield open_
+    for context in contexts:
+        context.close()

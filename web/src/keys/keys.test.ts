@@ -1,0 +1,167 @@
+import { afterEach, describe, expect, it, vi } from 'vitest';
+import { ANSWERABLE, type Vocabulary } from '../api/types';
+import { keyOf, listen, match, printed, type KeyPress } from './keys';
+import { bindingsFor, collisions, initial, type Binding, type Mode } from './registry';
+
+const maze: Vocabulary = {
+  domain: 'maze',
+  renderer: 'maze',
+  subgoals: ['north', 'south', 'west', 'east', 'go_to_target'],
+  actions: ['up', 'down', 'left', 'right'],
+};
+const awkward: Vocabulary = {
+  domain: 'awkward',
+  renderer: 'none',
+  subgoals: [
+    'undo',
+    'stairs',
+    'skull',
+    'x',
+    'élan',
+    ...Array.from({ length: 9 }, (_, index) => `more ${index}`),
+  ],
+  actions: ['Left', 'skip', 'fire', 'noop'],
+};
+const MODES: Mode[] = [...ANSWERABLE, 'waiting'];
+
+const press = (key: string, more: Partial<KeyPress> = {}): KeyPress => ({
+  key,
+  shiftKey: false,
+  ctrlKey: false,
+  altKey: false,
+  metaKey: false,
+  repeat: false,
+  isComposing: false,
+  ...more,
+});
+const keysOf = (bindings: readonly Binding[], command: string) =>
+  bindings.find((binding) => binding.command === command)?.keys;
+
+afterEach(() => document.body.replaceChildren());
+
+describe('the registry', () => {
+  it.each(MODES)('has no key that does two things in %s', (mode) => {
+    expect(collisions(bindingsFor(mode, maze))).toEqual([]);
+    expect(collisions(bindingsFor(mode, awkward))).toEqual([]);
+    expect(collisions(bindingsFor(mode, null))).toEqual([]);
+  });
+
+  it('reports a collision when there is one', () => {
+    const twice: Binding[] = [
+      { command: 'pass', keys: ['p'], label: '', group: 'Answer' },
+      { command: 'play', keys: ['p', ' '], label: '', group: 'Player' },
+    ];
+    expect(collisions(twice)).toEqual(['p']);
+  });
+
+  it('gives the subgoals of the maze their letters and digits, and skip another key', () => {
+    const bindings = bindingsFor('label_hi', maze);
+    expect(maze.subgoals.map((_, index) => keysOf(bindings, `choose:${index}`)?.[0])).toEqual([...'nswet']);
+    expect(keysOf(bindings, 'choose:4')).toEqual(['t', '5']);
+    expect(keysOf(bindings, 'skip')).toEqual(['Shift+s']);
+    expect(keysOf(bindingsFor('inspect_lo', maze), 'skip')).toEqual(['s', 'Shift+s']);
+  });
+
+  it('gives a letter only where it is free and means one subgoal', () => {
+    const bindings = bindingsFor('label_hi', awkward);
+    expect(keysOf(bindings, 'choose:0')).toEqual(['1']); // u is undo
+    expect(keysOf(bindings, 'choose:1')).toEqual(['2']); // two begin with s
+    expect(keysOf(bindings, 'choose:3')).toEqual(['x', '4']);
+    expect(keysOf(bindings, 'choose:4')).toEqual(['5']);
+    expect(keysOf(bindings, 'choose:10')).toEqual([]); // no digit left: by mouse
+  });
+
+  it('lets arrows set actions where there are such actions, and step elsewhere', () => {
+    expect(keysOf(bindingsFor('label_lo', maze), 'choose:2')).toEqual(['ArrowLeft', '3']);
+    expect(keysOf(bindingsFor('label_lo', maze), 'back')).toEqual([',']);
+    expect(keysOf(bindingsFor('label_lo', awkward), 'forward')).toEqual(['ArrowRight', '.']);
+    expect(keysOf(bindingsFor('inspect_lo', maze), 'back')).toEqual(['ArrowLeft', ',']);
+  });
+
+  it('leaves every command of every mode reachable', () => {
+    for (const mode of MODES) {
+      const unreachable = bindingsFor(mode, maze).filter((binding) => binding.keys.length === 0);
+      expect(unreachable).toEqual([]);
+    }
+  });
+
+  it('knows a subgoal by its letter', () => {
+    expect(['north', 'go_to_target', 'to_stairs', ''].map(initial)).toEqual(['N', 'T', 'S', '']);
+  });
+});
+
+describe('a key press', () => {
+  it('has one name', () => {
+    expect(keyOf(press('P'))).toBe('p');
+    expect(keyOf(press('S', { shiftKey: true }))).toBe('Shift+s');
+    expect(keyOf(press('?', { shiftKey: true }))).toBe('?');
+    expect(keyOf(press('Enter', { shiftKey: true }))).toBe('Shift+Enter');
+  });
+
+  it('is printed as on a keyboard', () => {
+    expect(['p', 'ArrowLeft', ' ', 'Shift+Enter', 'Home'].map(printed)).toEqual([
+      'P',
+      '←',
+      'Space',
+      '⇧ ↵',
+      'Home',
+    ]);
+  });
+
+  const inspect = bindingsFor('inspect_full', maze);
+  const meaning = (key: string, target: Element | null = null, more: Partial<KeyPress> = {}) =>
+    match(press(key, more), target, inspect)?.command ?? null;
+
+  it('means nothing with Ctrl, Alt or Meta, or while a character is composed', () => {
+    expect(meaning('p')).toBe('pass');
+    for (const held of ['ctrlKey', 'altKey', 'metaKey', 'isComposing'] as const) {
+      expect(meaning('p', null, { [held]: true })).toBeNull();
+    }
+  });
+
+  it('belongs to a field while one is typed in', () => {
+    document.body.innerHTML =
+      '<input type="text"><textarea></textarea><p contenteditable><b>x</b></p><select></select>';
+    for (const field of document.body.querySelectorAll('input, textarea, b, select')) {
+      expect(meaning('p', field)).toBeNull();
+    }
+  });
+
+  it('leaves arrows to a slider, and Enter and Space to a button or link', () => {
+    document.body.innerHTML =
+      '<input type="range"><button>b</button><a href="/x">a</a><button data-hotkeys>row</button>';
+    const [slider, button, link, row] = [...document.body.children];
+    expect(meaning('ArrowLeft', slider)).toBeNull();
+    expect(meaning('p', slider)).toBe('pass');
+    expect(meaning(' ', button)).toBeNull();
+    expect(meaning(' ', link)).toBeNull();
+    expect(meaning('p', button)).toBe('pass');
+    expect(meaning(' ', row)).toBe('play');
+  });
+});
+
+describe('listening', () => {
+  const key = (name: string, more: KeyboardEventInit = {}): KeyboardEvent =>
+    new KeyboardEvent('keydown', { key: name, bubbles: true, cancelable: true, ...more });
+
+  it('runs commands, submits once however long the key is held, and is silent after it is stopped', () => {
+    const run = vi.fn();
+    const stop = listen(() => bindingsFor('inspect_full', maze), run);
+    window.dispatchEvent(key('p'));
+    window.dispatchEvent(key('p', { repeat: true }));
+    window.dispatchEvent(key('ArrowRight'));
+    window.dispatchEvent(key('ArrowRight', { repeat: true }));
+    stop();
+    window.dispatchEvent(key('p'));
+    expect(run.mock.calls.flat()).toEqual(['pass', 'forward', 'forward']);
+  });
+
+  it('is silent while a dialog is open', () => {
+    const run = vi.fn();
+    const stop = listen(() => bindingsFor('inspect_full', maze), run);
+    document.body.innerHTML = '<dialog open></dialog>';
+    window.dispatchEvent(key('p'));
+    stop();
+    expect(run).not.toHaveBeenCalled();
+  });
+});

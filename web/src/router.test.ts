@@ -1,0 +1,17 @@
+import { expect, it } from 'vitest';
+import { parseRoute } from './router.svelte';
+
+it.each([
+  ['/', '', { view: 'work', run: null }],
+  ['/work', '?run=a%20b', { view: 'work', run: 'a b' }],
+  ['/work/', '', { view: 'work', run: null }],
+  ['/runs', '', { view: 'runs' }],
+  ['/runs/a%2Fb', '', { view: 'run', run: 'a/b' }],
+  ['/runs/%zz', '', { view: 'run', run: '%zz' }],
+  ['/login', '', { view: 'login' }],
+  ['/work/7', '', { view: 'nowhere' }],
+  ['/runs/1/2', '', { view: 'nowhere' }],
+  ['/else', '', { view: 'nowhere' }],
+])('%s%s leads somewhere', (path, search, route) => {
+  expect(parseRoute(path, search)).toEqual(route);
+});

@@ -1,0 +1,113 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { Refused, Unreachable } from '../api/client';
+import type { Receipt } from '../api/types';
+import type { Desk, Letter } from './desk';
+import { Mailer } from './mailer';
+import { add, attempted, delay, load, save, without, type Outbox } from './outbox';
+
+const letter = (assignment: number): Letter => ({
+  assignment,
+  token: 't',
+  key: `k${assignment}`,
+  attempts: 0,
+  answer: { kind: 'inspect_full', verdict: 'pass' },
+});
+const receipt: Receipt = { query: 1, answer: 1, units: 1, seconds: 2, next: null };
+
+describe('the outbox', () => {
+  beforeEach(() => sessionStorage.clear());
+
+  it('keeps answers in order, one per assignment', () => {
+    const two = add(add([], letter(1)), letter(2));
+    expect(add(two, letter(1)).map((kept) => kept.assignment)).toEqual([2, 1]);
+    expect(without(two, 1)).toEqual([letter(2)]);
+    expect(attempted(two, 2).map((kept) => kept.attempts)).toEqual([0, 1]);
+  });
+
+  it('waits longer after each failure, up to a limit', () => {
+    expect([1, 2, 3, 4, 5, 9].map(delay)).toEqual([500, 1000, 2000, 4000, 8000, 8000]);
+  });
+
+  it('outlives a reload, and whatever else is in its place', () => {
+    save(sessionStorage, [letter(1)]);
+    expect(load(sessionStorage)).toEqual([letter(1)]);
+    save(sessionStorage, []);
+    expect(load(sessionStorage)).toEqual([]);
+    for (const broken of ['{', '7', '[{"assignment": "x"}, null]']) {
+      sessionStorage.setItem('waypost:outbox', broken);
+      expect(load(sessionStorage)).toEqual([]);
+    }
+  });
+});
+
+describe('the mailer', () => {
+  const answer = vi.fn<Desk['answer']>();
+  const desk = { answer } as unknown as Desk;
+  let outbox: Outbox = [];
+  const events = { changed: (now: Outbox) => (outbox = now), stored: vi.fn(), refused: vi.fn() };
+  const mailer = () => new Mailer(desk, sessionStorage, events);
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    vi.resetAllMocks();
+    sessionStorage.clear();
+  });
+  afterEach(() => vi.useRealTimers());
+
+  it('asks for the next query with the answer, and lets go of it with the receipt', async () => {
+    answer.mockResolvedValue(receipt);
+    expect(await mailer().send(letter(1))).toBe(receipt);
+    expect(answer).toHaveBeenCalledWith(letter(1), true);
+    expect(outbox).toEqual([]);
+    expect(load(sessionStorage)).toEqual([]);
+  });
+
+  it('keeps an answer through an outage and sends it until it is stored', async () => {
+    answer
+      .mockRejectedValueOnce(new Unreachable())
+      .mockRejectedValueOnce(new Unreachable())
+      .mockResolvedValue(receipt);
+    expect(await mailer().send(letter(1))).toBeNull();
+    expect(load(sessionStorage)).toHaveLength(1);
+    await vi.advanceTimersByTimeAsync(500);
+    expect(outbox).toHaveLength(1);
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(outbox).toEqual([]);
+    expect(answer.mock.calls.map(([sent]) => sent.key)).toEqual(['k1', 'k1', 'k1']);
+  });
+
+  it('sends what an earlier page left behind, and takes up the query that came with its receipt', async () => {
+    save(sessionStorage, [letter(1), letter(2)]);
+    const next = { id: 9 } as unknown as NonNullable<Receipt['next']>;
+    answer.mockResolvedValueOnce(receipt).mockResolvedValueOnce({ ...receipt, next });
+    expect(await mailer().flush(true)).toBe(next);
+    expect(answer.mock.calls.map(([sent, wanted]) => [sent.assignment, wanted])).toEqual([
+      [1, false],
+      [2, true],
+    ]);
+    expect(outbox).toEqual([]);
+  });
+
+  it('stops at the first that cannot be sent, so that the order stays', async () => {
+    save(sessionStorage, [letter(1), letter(2)]);
+    answer.mockRejectedValue(new Unreachable());
+    expect(await mailer().flush(true)).toBeNull();
+    expect(answer).toHaveBeenCalledTimes(1);
+    expect(outbox).toHaveLength(2);
+  });
+
+  it('says so when an answer is refused, and does not send it again', async () => {
+    const late = new Refused(409, { type: '/problems/lease-expired', detail: 'Too late.' });
+    answer.mockRejectedValue(late);
+    expect(await mailer().send(letter(1))).toBeNull();
+    expect(events.refused).toHaveBeenCalledWith(letter(1), late);
+    expect(outbox).toEqual([]);
+  });
+
+  it('keeps an answer while nobody is signed in', async () => {
+    answer.mockRejectedValue(new Refused(401, undefined));
+    await mailer().send(letter(1));
+    expect(outbox).toHaveLength(1);
+    expect(events.refused).not.toHaveBeenCalled();
+  });
+});
