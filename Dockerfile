@@ -1,0 +1,54 @@
+# Two images out of one file: `--target server` (the service and its page) and `--target learner` (that, and PyTorch).
+
+FROM node:22-slim AS page
+WORKDIR /src/web
+COPY web/package.json web/package-lock.json web/.npmrc ./
+RUN npm ci --no-audit --no-fund
+COPY web/ ./
+RUN npm run build
+
+
+FROM python:3.13-slim AS wheel
+WORKDIR /src
+RUN python -m venv /opt/waypost
+COPY pyproject.toml README.md LICENSE ./
+COPY server/ server/
+COPY learner/ learner/
+COPY web/hatch_build.py web/
+# The build hook takes the built page as it is, so this stage needs no Node.
+COPY --from=page /src/web/dist/ web/dist/
+RUN pip wheel --no-cache-dir --no-deps --wheel-dir /wheels .
+
+
+FROM wheel AS server-environment
+RUN /opt/waypost/bin/pip install --no-cache-dir /wheels/*.whl
+
+
+FROM wheel AS learner-environment
+# PyTorch first and by itself, from the index given: its CPU-only builds save gigabytes (docs/operator.md).
+ARG TORCH_INDEX_URL=
+RUN /opt/waypost/bin/pip install --no-cache-dir ${TORCH_INDEX_URL:+--index-url "$TORCH_INDEX_URL"} 'torch>=2.6,<2.14'
+RUN /opt/waypost/bin/pip install --no-cache-dir "$(echo /wheels/*.whl)[learner]"
+
+
+FROM python:3.13-slim AS runtime
+RUN useradd --system --uid 10001 --home-dir /data waypost \
+ && mkdir /data /tokens \
+ && chown waypost /data /tokens
+ENV PATH=/opt/waypost/bin:$PATH PYTHONUNBUFFERED=1
+USER waypost
+WORKDIR /data
+
+
+FROM runtime AS learner
+COPY --from=learner-environment /opt/waypost /opt/waypost
+CMD ["waypost", "--help"]
+
+
+FROM runtime AS server
+COPY --from=server-environment /opt/waypost /opt/waypost
+ENV WAYPOST_DATABASE=sqlite:////data/waypost.db
+EXPOSE 8000
+HEALTHCHECK --interval=10s --timeout=5s --start-period=20s \
+  CMD ["python", "-c", "import urllib.request; urllib.request.urlopen('http://127.0.0.1:8000/readyz', timeout=4)"]
+CMD ["waypost", "serve", "--host", "0.0.0.0", "--port", "8000"]

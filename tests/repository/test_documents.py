@@ -1,0 +1,115 @@
+import re
+
+import pytest
+
+from server.settings import Settings
+from tests.repository.kit import DOCUMENTS, ROOT, commands, complaint, invocations, name_of, options, shell_blocks
+
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+
+
+def anchors(text: str) -> set[str]:
+    """The addresses of a document's headings, as code hosts make them."""
+    headings = re.findall(r"^#+ (.+)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=name_of)
+def test_every_link_leads_somewhere(document):
+    broken = []
+    for link in LINK.findall(re.sub(r"```.*?```", "", document.read_text(), flags=re.DOTALL)):
+        if re.match(r"[a-z]+:", link):
+            continue
+        path, _, anchor = link.partition("#")
+        target = (document.parent / path) if path else document
+        if not target.exists() or (anchor and anchor not in anchors(target.read_text())):
+            broken.append(link)
+    assert broken == []
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=name_of)
+def test_every_make_target_in_a_document_exists(document):
+    makefile = (ROOT / "Makefile").read_text()
+    targets = set(re.findall(r"^([\w-]+):", makefile, re.MULTILINE))
+    named = set(re.findall(r"(?:^|`)make ([a-z][\w-]*)", document.read_text(), re.MULTILINE))
+    assert named <= targets
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=name_of)
+def test_every_command_in_a_document_is_one_the_command_line_takes(document):
+    wrong = {line: said for line in invocations(shell_blocks(document)) if (said := complaint(line))}
+    assert wrong == {}
+
+
+@pytest.mark.parametrize(
+    "line", ["waypost bake", "waypost train", "waypost train h-bc --sed 1", "waypost user add a b"]
+)
+def test_a_wrong_command_would_be_noticed(line):
+    assert complaint(line)
+
+
+def test_commands_are_found_wherever_a_shell_has_them():
+    text = "A=$(waypost token create bot) waypost oracle --defer 5 &\nwaypost serve   # waypost bake\n"
+    assert invocations(text) == ["waypost token create bot", "waypost oracle --defer 5 ", "waypost serve"]
+
+
+def sections(text: str) -> dict[str, str]:
+    """What stands under each heading of the second level."""
+    parts = re.split(r"^## (.+)$", text, flags=re.MULTILINE)
+    return dict(zip(parts[1::2], parts[2::2], strict=True))
+
+
+@pytest.mark.parametrize(("name", "command"), list(commands()), ids=lambda one: one if isinstance(one, str) else "")
+def test_the_command_line_is_documented_to_the_last_option(name, command):
+    section = sections((ROOT / "docs" / "cli.md").read_text()).get(f"`{name}`")
+    assert section is not None, f"docs/cli.md has no heading for `{name}`"
+    missing = [one for one in options(command) if f"`{one}" not in section]
+    assert missing == []
+    gone = set(re.findall(r"^\| `(--[\w-]+)", section, re.MULTILINE)) - options(command)
+    assert gone == set()
+
+
+def test_no_command_is_documented_that_does_not_exist():
+    documented = {name.strip("`") for name in sections((ROOT / "docs" / "cli.md").read_text()) if "waypost" in name}
+    assert documented == {name for name, _ in commands()}
+
+
+def test_every_setting_of_the_server_is_documented_and_no_other():
+    text = (ROOT / "docs" / "operator.md").read_text()
+    documented = set(re.findall(r"^\| `WAYPOST_(\w+)`", text, re.MULTILINE))
+    assert documented == {name.upper() for name in Settings.model_fields}
+
+
+def modules(package: str) -> list[str]:
+    """Every module of a package by its path in the repository, but the empty ones."""
+    paths = sorted((ROOT / package).rglob("*.py"))
+    return [name_of(path) for path in paths if path.read_text().strip() and "versions" not in path.parts]
+
+
+@pytest.mark.parametrize("module", [*modules("server"), *modules("learner")])
+def test_the_map_names_every_module(module):
+    text = (ROOT / "ARCHITECTURE.md").read_text()
+    below = module.partition("/")[2]
+    assert f"`{below}`" in text or f"`{module}`" in text, f"ARCHITECTURE.md does not mention {module}"
+
+
+def test_the_map_names_no_file_that_is_gone():
+    text = (ROOT / "ARCHITECTURE.md").read_text() + (ROOT / "docs" / "paper.md").read_text()
+    named = set(re.findall(r"`((?:server|learner|web|tests|docs|scripts)/[\w./-]+)`", text))
+    assert [name for name in named if not (ROOT / name).exists()] == []
+
+
+def test_every_deviation_the_code_refers_to_is_in_the_paper_map():
+    text = (ROOT / "docs" / "paper.md").read_text()
+    numbered = {int(number) for number in re.findall(r"^(\d+)\. \*\*", text, re.MULTILINE)}
+    assert numbered == set(range(1, len(numbered) + 1))
+    sources = "".join(path.read_text() for path in (ROOT / "learner").rglob("*.py"))
+    referred = {int(number) for number in re.findall(r"paper\.md, deviation (\d+)", sources)}
+    assert referred <= numbered
+
+
+def test_every_decision_has_its_four_parts():
+    for record in (ROOT / "docs" / "decisions").glob("0*.md"):
+        text = record.read_text()
+        for part in ("Context", "Decision", "Consequences", "Alternatives"):
+            assert f"## {part}\n" in text, f"{name_of(record)} lacks {part}"
