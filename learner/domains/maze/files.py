@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from learner.domains.maze.maze import SIZE, Maze, distances_from, room_of
+from learner.domains.maze.maze import ROOMS, SIZE, Maze, distances_from, room_of
 
 _SHAPES: dict[str, tuple[int, ...]] = {"lava": (SIZE, SIZE), "start": (2,), "goal": (2,)}
 
@@ -61,6 +61,8 @@ def _maze(path: Path, i: int, lava: NDArray[np.bool_], start: NDArray[Any], goal
     border[1:-1, 1:-1] = False
     if not lava[border].all():
         raise ValueError(f"{path}: `lava` of maze {i} must close the outer wall")
+    if not lava[::ROOMS, ::ROOMS].all():
+        raise ValueError(f"{path}: `lava` of maze {i} must cover the cells where walls meet, (0, 4), (4, 4) and so on")
     ends = {}
     for name, (row, column) in (("start", start.tolist()), ("goal", goal.tolist())):
         if not (0 <= row < SIZE and 0 <= column < SIZE) or room_of((row, column)) is None or lava[row, column]:

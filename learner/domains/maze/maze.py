@@ -76,6 +76,16 @@ def room_of(cell: Cell) -> Room | None:
     return row // ROOMS, column // ROOMS
 
 
+def wall_beside(cell: Cell, direction: int) -> list[Cell]:
+    """Return the three cells of the wall on a side of a cell's room; a door's own wall is beside it on two sides."""
+    line, along = cell if direction in (0, 1) else cell[::-1]
+    if along % ROOMS == 0:  # a door in a wall that runs the other way
+        return []
+    wall = line if line % ROOMS == 0 else ROOMS * (line // ROOMS + direction % 2)
+    places = [(wall, ROOMS * (along // ROOMS) + k) for k in (1, 2, 3)]
+    return places if direction in (0, 1) else [place[::-1] for place in places]
+
+
 def walls() -> Iterator[tuple[Room, Room, tuple[Cell, ...]]]:
     """Yield the 24 walls between neighbouring rooms: both rooms, and the three cells where a door can be."""
     for i in range(ROOMS):
@@ -95,19 +105,15 @@ def closed_rooms() -> NDArray[np.bool_]:
 
 def distances_from(lava: NDArray[np.bool_], source: Cell) -> NDArray[np.int16]:
     """Return int16[17, 17], the steps from `source` to each cell, -1 where no path leads (breadth-first)."""
-    distances = np.full((SIZE, SIZE), -1, dtype=np.int16)
     if lava[source]:
-        return distances
-    distances[source] = 0
-    frontier, steps = [source], 0
-    while frontier:
-        steps += 1
-        reached = []
-        for cell in frontier:
-            for action in range(4):
-                neighbour = moved(cell, action)
-                if not lava[neighbour] and distances[neighbour] < 0:
-                    distances[neighbour] = steps
-                    reached.append(neighbour)
-        frontier = reached
-    return distances
+        return np.full((SIZE, SIZE), -1, np.int16)
+    unseen, blocked = -1, -2
+    distances = np.where(lava, blocked, unseen).ravel().tolist()  # a list, by cell number, is quicker than an array
+    reached = [SIZE * source[0] + source[1]]
+    distances[reached[0]] = 0
+    for cell in reached:
+        for neighbour in (cell - SIZE, cell + SIZE, cell - 1, cell + 1):
+            if distances[neighbour] == unseen:
+                distances[neighbour] = distances[cell] + 1
+                reached.append(neighbour)
+    return np.array(distances, np.int16).clip(min=-1).reshape(SIZE, SIZE)

@@ -22,9 +22,11 @@ from learner.domains.maze.maze import (
     distances_from,
     moved,
     room_of,
+    wall_beside,
 )
 
 MAZES_CACHED = 64
+FAR = np.int16(10_000)
 
 
 class _Solved:
@@ -40,32 +42,22 @@ class _Solved:
             self._distances[cell] = distances_from(self.maze.lava, cell)
         return self._distances[cell]
 
-    def entry(self, origin: Cell, subgoal: int) -> Cell | None:
-        """Return the first cell beyond the door on the subgoal's side of `origin`, None if there is no such door."""
-        if room_of(origin) is None:  # On a door: the rooms on its two sides, and nothing else, can be entered.
-            beyond = moved(origin, subgoal)
-            return None if self.maze.lava[origin] or self.maze.lava[beyond] else beyond
-        row, column = (4 * (line // 4) for line in origin)
-        sides = {
-            0: [(row, column + k) for k in (1, 2, 3)],
-            1: [(row + 4, column + k) for k in (1, 2, 3)],
-            2: [(row + k, column) for k in (1, 2, 3)],
-            3: [(row + k, column + 4) for k in (1, 2, 3)],
-        }
-        doors = [cell for cell in sides[subgoal] if not self.maze.lava[cell]]
-        if not doors:
-            return None
-        # Maze files may have two doors in one wall: take the one on the shorter way to the target.
-        to_goal = self.distances_to(self.maze.goal)
-        door = min(doors, key=lambda cell: int(self.distances_to(cell)[origin] + to_goal[cell]))
-        return moved(door, subgoal)
+    def aims(self, origin: Cell, subgoal: int) -> list[Cell]:
+        """Return the cells where a subgoal chosen at `origin` can end; none if it is not valid there.
 
-    def aim(self, origin: Cell, subgoal: int) -> Cell | None:
-        """Return the cell that a subgoal chosen at `origin` leads to, None where the subgoal is not valid."""
+        They are the first cells beyond the doors on its side; maze files may have several doors in one wall.
+        """
+        goal, lava = self.maze.goal, self.maze.lava
         if subgoal == GO_TO_TARGET:
-            goal_room = room_of(self.maze.goal)
-            return self.maze.goal if room_of(origin) == goal_room else None
-        return self.entry(origin, subgoal)
+            return [goal] if room_of(origin) == room_of(goal) else []
+        doors = [door for door in wall_beside(origin, subgoal) if not lava[door]]
+        return [cell for cell in (moved(door, subgoal) for door in doors) if not lava[cell]]
+
+    def distances_by_way_of(self, aims: list[Cell]) -> NDArray[np.int16]:
+        """Return int16[17, 17], the steps from each cell to the target through the best of the aims; lava is far."""
+        to_goal = self.distances_to(self.maze.goal)
+        ways = [self.distances_to(aim) + to_goal[aim] for aim in aims]
+        return np.where(self.maze.lava, FAR, np.min(ways, axis=0))
 
 
 class MazeOracle:
@@ -82,11 +74,11 @@ class MazeOracle:
     def good_subgoals(self, instance: Any, state: Any) -> Sequence[int]:
         """Return mu*(s): every subgoal on a shortest path to the target."""
         solved, here = self._maze(instance), cell_of(state)
-        to_goal = solved.distances_to(solved.maze.goal)
+        shortest = solved.distances_to(solved.maze.goal)[here]
         good = []
         for subgoal in range(len(SUBGOALS)):
-            aim = solved.aim(here, subgoal)
-            if aim is not None and solved.distances_to(aim)[here] + to_goal[aim] == to_goal[here]:
+            aims = solved.aims(here, subgoal)
+            if aims and solved.distances_by_way_of(aims)[here] == shortest:
                 good.append(subgoal)
         # In the target's room only the target itself is left to do.
         return [GO_TO_TARGET] if GO_TO_TARGET in good else good
@@ -94,20 +86,20 @@ class MazeOracle:
     def good_actions(self, instance: Any, origin: Any, state: Any, subgoal: int) -> Sequence[int]:
         """Return pi*_g(s): every action that brings the aim of the subgoal, chosen at `origin`, nearer."""
         solved, here = self._maze(instance), cell_of(state)
-        aim = solved.aim(cell_of(origin), subgoal)
-        if aim is None or solved.maze.lava[here]:
+        aims = solved.aims(cell_of(origin), subgoal)
+        if not aims or solved.maze.lava[here]:
             return []
-        to_aim = solved.distances_to(aim)
-        good = [a for a in range(len(ACTIONS)) if 0 <= to_aim[moved(here, a)] < to_aim[here]]
+        distances = solved.distances_by_way_of(aims)
+        good = [action for action in range(len(ACTIONS)) if distances[moved(here, action)] < distances[here]]
         return sorted(good, key=lambda action: action // 2 == subgoal // 2)
 
     def reached(self, instance: Any, origin: Any, state: Any, subgoal: int) -> bool:
         """Return beta*_g(s): is the subgoal, chosen at `origin`, accomplished in `state`?"""
-        solved, start, here = self._maze(instance), cell_of(origin), cell_of(state)
-        aim = solved.aim(start, subgoal)
-        if aim is None:
+        solved, here = self._maze(instance), cell_of(state)
+        aims = solved.aims(cell_of(origin), subgoal)
+        if not aims:
             return False
-        return here == aim if subgoal == GO_TO_TARGET else room_of(here) == room_of(aim)
+        return here == aims[0] if subgoal == GO_TO_TARGET else room_of(here) == room_of(aims[0])
 
     def succeeded(self, instance: Any, state: Any) -> bool:
         """Return whether the task is accomplished in `state`."""

@@ -1,0 +1,137 @@
+"""What the learner's tests are written with: small presets, mazes to choose from, and a reference solver."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from hypothesis import assume, settings
+from hypothesis import strategies as st
+
+from learner.domains.maze.generator import maze_set
+from learner.domains.maze.maze import ROOMS, SIZE, Cell, Maze, closed_rooms, room_of, walls
+from learner.networks import NetworkSpec
+from learner.policies import TrainSpec
+from learner.presets import PRESETS
+from learner.presets.base import Preset
+from learner.rollout import Choosing
+from learner.training import Connection, RunOptions, embedded
+from learner.types import Segment, State
+
+TINY_TRAIN = TrainSpec(learning_rate=5e-3, batch=16, samples_per_round=64, dropout=0.25)
+TINY = Preset(
+    warm_start=3,
+    network=NetworkSpec(channels=(4, 4), hidden=16),
+    train_hi=TINY_TRAIN,
+    train_lo=TINY_TRAIN,
+    choosing=Choosing(temperature=0.1, termination_threshold=0.9),
+)
+"""A preset for runs of a second: its networks learn the corridor a little, and so still make mistakes."""
+
+examples = settings(deadline=None, max_examples=60)
+"""How properties are tried."""
+
+GREEDY = Choosing(temperature=0, termination_threshold=0.9)
+STEPS: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))  # up, down, left, right
+
+
+@contextmanager
+def tiny_preset() -> Iterator[None]:
+    """Make `--preset tiny` exist."""
+    PRESETS["tiny"] = TINY
+    try:
+        yield
+    finally:
+        del PRESETS["tiny"]
+
+
+@contextmanager
+def store(path: Path) -> Iterator[tuple[Connection, RunOptions]]:
+    """Connect to a store in `path`, with checkpoints beside it."""
+    with embedded(path / "waypost.db") as connection:
+        yield connection, RunOptions(checkpoints=path / "checkpoints", threads=1)
+
+
+# --- trajectories
+
+
+def state(view: Any = None) -> State:
+    """A state that no network will see."""
+    return State(np.zeros(2, np.float32), view)
+
+
+def segment(subgoal: int | None, n_actions: int = 2, action: int = 0, terminated: bool = True) -> Segment:
+    """A segment of states that differ by identity alone."""
+    return Segment(subgoal, tuple(state() for _ in range(n_actions + 1)), (action,) * n_actions, terminated)
+
+
+# --- mazes
+
+
+def free_cells(maze: Maze) -> list[Cell]:
+    """Every cell that is no lava."""
+    return [(int(row), int(column)) for row, column in np.argwhere(~maze.lava)]
+
+
+def reachable_cells(maze: Maze) -> list[Cell]:
+    """Every cell from which a path leads to the target."""
+    return sorted(cell for cell, steps in solved(maze).items() if steps < np.inf)
+
+
+def solved(maze: Maze, target: Cell | None = None) -> dict[Cell, float]:
+    """Steps from each free cell to the target by value iteration: the reference that the oracle is held against."""
+    value = np.full((SIZE + 2, SIZE + 2), np.inf)  # a frame of lava around it
+    before = np.zeros_like(value)
+    inside, (row, column) = value[1:-1, 1:-1], target or maze.goal
+    while (before != value).any():
+        before = value.copy()
+        around = (before[:-2, 1:-1], before[2:, 1:-1], before[1:-1, :-2], before[1:-1, 2:])
+        inside[:] = np.where(maze.lava, np.inf, 1 + np.minimum.reduce(around))
+        inside[row, column] = 0
+    return {cell: float(inside[cell]) for cell in free_cells(maze)}
+
+
+def neighbours(cell: Cell) -> Sequence[Cell]:
+    """The cells up, down, left and right of a cell, in the order of the actions."""
+    return [(cell[0] + row, cell[1] + column) for row, column in STEPS]
+
+
+@st.composite
+def drawn_mazes(draw: st.DrawFn) -> Maze:
+    """Mazes of the two sets."""
+    training, test = maze_set(draw(st.sampled_from(["random", "corners"])))
+    return draw(st.sampled_from([*training[:100], *test[:100]]))
+
+
+def room_cells() -> st.SearchStrategy[Cell]:
+    """Cells of rooms."""
+    lines = st.integers(1, SIZE - 2).filter(lambda line: line % ROOMS)
+    return st.tuples(lines, lines)
+
+
+@st.composite
+def free_mazes(draw: st.DrawFn) -> Maze:
+    """Mazes as a file may have them: any doors, several in one wall too, and lava in rooms."""
+    lava = closed_rooms()
+    for *_, cells in walls():
+        for cell, is_open in zip(cells, draw(st.tuples(*[st.booleans()] * 3)), strict=True):
+            lava[cell] = not is_open
+    for cell in draw(st.lists(room_cells(), max_size=6)):
+        lava[cell] = True
+    goal = draw(room_cells())
+    lava[goal] = False
+    unstarted = Maze(lava, goal, goal)
+    starts = [cell for cell in reachable_cells(unstarted) if cell != goal and room_of(cell) is not None]
+    assume(starts)
+    return Maze(lava, draw(st.sampled_from(starts)), goal)
+
+
+def mazes() -> st.SearchStrategy[Maze]:
+    """Mazes of the sets and of files."""
+    return st.one_of(drawn_mazes(), free_mazes())
+
+
+def picture(maze: Maze) -> list[str]:
+    """The maze as rows of text, to show in a failure."""
+    return ["".join("#" if maze.lava[row, column] else "." for column in range(SIZE)) for row in range(SIZE)]
