@@ -13,7 +13,7 @@ from server import canonical, errors, events, kinds, money, queries, queue, runs
 from server.database import Tx
 from server.money import Cost, Entry, to_units
 from server.settings import Settings
-from server.tables import answers, assignments, ledger
+from server.tables import IS_LIVE, answers, assignments, ledger
 from server.tables import queries as query_table
 
 
@@ -192,7 +192,7 @@ def _retracted_before(tx: Tx, query: int, user: int) -> wire.Assignment:
     live_now = select(assignments.c.id).where(
         assignments.c.query_id == query,
         assignments.c.user_id == user,
-        assignments.c.state == "live",
+        IS_LIVE,
         assignments.c.expires_at > tx.now,
     )
     one = tx.conn.execute(live_now).scalar_one_or_none()

@@ -9,7 +9,7 @@ from sqlalchemy.sql.elements import ColumnElement
 
 from server import wire
 from server.database import Tx
-from server.tables import assignments, presence, queries, skips
+from server.tables import IS_LIVE, assignments, presence, queries, skips
 
 REFRESH_SECONDS = 3.0
 
@@ -31,7 +31,7 @@ def who_would_take(tx: Tx, seconds: float) -> ColumnElement[bool]:
     """Return the condition that somebody at work takes a query: its kind, in its run, and has not skipped it."""
     busy = exists().where(
         assignments.c.user_id == presence.c.user_id,
-        assignments.c.state == "live",
+        IS_LIVE,
         assignments.c.expires_at > tx.now,
         assignments.c.deferring.is_(False),
     )

@@ -11,7 +11,7 @@ from sqlalchemy import Row, Select, and_, func, insert, select, tuple_, update
 from server import canonical, errors, events, kinds, live, money, runs, wire
 from server.database import Tx
 from server.money import to_units
-from server.tables import answers, assignments, queries, users
+from server.tables import IS_LIVE, answers, assignments, queries, users
 
 QueryId = Annotated[int, Path(ge=1, le=2**63 - 1)]
 
@@ -33,7 +33,7 @@ QUERIES: Select[Any] = (
     .select_from(queries)
     .outerjoin(answers, answers.c.id == queries.c.answer_id)
     .outerjoin(_annotator, _annotator.c.id == answers.c.user_id)
-    .outerjoin(assignments, and_(assignments.c.query_id == queries.c.id, assignments.c.state == "live"))
+    .outerjoin(assignments, and_(assignments.c.query_id == queries.c.id, IS_LIVE))
     .outerjoin(_holder, _holder.c.id == assignments.c.user_id)
 )
 

@@ -11,7 +11,7 @@ from sqlalchemy.sql.elements import ColumnElement
 from server import errors, live, presence, queries, runs, wire
 from server.database import Tx
 from server.settings import Settings
-from server.tables import answers, assignments, skips
+from server.tables import IS_LIVE, IS_OPEN, answers, assignments, skips
 from server.tables import queries as query_table
 from server.tables import runs as run_table
 
@@ -96,9 +96,7 @@ def _take(tx: Tx, wish: Wish) -> int | None:
         first = follow_up or first
     # On PostgreSQL others may be taking the same: lock it, or whichever is next and free.
     locked = tx.conn.execute(
-        select(query_table.c.id)
-        .where(query_table.c.id == first.id, query_table.c.state == "open")
-        .with_for_update(skip_locked=True)
+        select(query_table.c.id).where(query_table.c.id == first.id, IS_OPEN).with_for_update(skip_locked=True)
     ).one_or_none()
     if locked is None:
         locked = tx.conn.execute(offered.limit(1).with_for_update(skip_locked=True, of=query_table)).one_or_none()
@@ -108,10 +106,10 @@ def _take(tx: Tx, wish: Wish) -> int | None:
 def _offered(tx: Tx, wish: Wish) -> Select[Any]:
     """Return the open queries this annotator may have, best first."""
     skipped = exists().where(skips.c.query_id == query_table.c.id, skips.c.user_id == wish.user)
-    running = select(run_table.c.id).where(run_table.c.state == "running")
+    running = exists().where(run_table.c.id == query_table.c.run_id, run_table.c.state == "running")
     offered = (
         select(query_table.c.id, query_table.c.priority)
-        .where(query_table.c.state == "open", query_table.c.run_id.in_(running), ~skipped)
+        .where(IS_OPEN, running, ~skipped)
         .order_by(query_table.c.priority.desc(), query_table.c.id)
     )
     if wish.kinds is not None:
@@ -142,7 +140,7 @@ def expire(tx: Tx) -> int:
     due = (
         select(query_table.c.id)
         .join(assignments, assignments.c.query_id == query_table.c.id)
-        .where(assignments.c.state == "live", assignments.c.expires_at <= tx.now)
+        .where(IS_LIVE, assignments.c.expires_at <= tx.now)
         .with_for_update(skip_locked=True, of=query_table)
     )
     ids = tx.conn.execute(due).scalars().all()
@@ -162,7 +160,7 @@ def reopen(
     """End the live assignments of locked queries and put the queries back."""
     ended = tx.conn.execute(
         update(assignments)
-        .where(assignments.c.query_id.in_(ids), assignments.c.state == "live", *conditions)
+        .where(assignments.c.query_id.in_(ids), IS_LIVE, *conditions)
         .values(state=ending, ended_at=tx.now, reason=reason)
         .returning(assignments.c.query_id)
     ).scalars()
@@ -238,7 +236,7 @@ def held(tx: Tx, user: int) -> wire.AssignmentList:
     """List an annotator's live assignments, oldest first."""
     ids = tx.conn.execute(
         select(assignments.c.id)
-        .where(assignments.c.user_id == user, assignments.c.state == "live", assignments.c.expires_at > tx.now)
+        .where(assignments.c.user_id == user, IS_LIVE, assignments.c.expires_at > tx.now)
         .order_by(assignments.c.id)
     ).scalars()
     return wire.AssignmentList(assignments=[view(tx, one) for one in ids.all()])
@@ -248,7 +246,7 @@ def granted_after(tx: Tx, assignment: int) -> wire.Assignment | None:
     """Return the live assignment that the reply to an earlier answer handed out."""
     one = tx.conn.execute(
         select(assignments.c.id)
-        .where(assignments.c.after_id == assignment, assignments.c.state == "live", assignments.c.expires_at > tx.now)
+        .where(assignments.c.after_id == assignment, IS_LIVE, assignments.c.expires_at > tx.now)
         .order_by(assignments.c.id.desc())
         .limit(1)
     ).scalar_one_or_none()

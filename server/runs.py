@@ -11,7 +11,7 @@ from sqlalchemy.sql.elements import ColumnElement
 from server import canonical, errors, events, live, money, wire
 from server.database import Tx
 from server.money import Account, to_micro, to_units
-from server.tables import assignments, episodes, queries, runs
+from server.tables import IS_LIVE, assignments, episodes, queries, runs
 
 TRAILING = 100  # test episodes the success rate is taken over
 UNANSWERED = ("open", "leased")
@@ -201,9 +201,7 @@ def _cancel_open(tx: Tx, run: str) -> None:
         update(queries).where(queries.c.run_id == run, queries.c.state.in_(UNANSWERED)).values(state="cancelled")
     )
     tx.conn.execute(
-        update(assignments)
-        .where(assignments.c.query_id.in_(ids), assignments.c.state == "live")
-        .values(state="cancelled", ended_at=tx.now)
+        update(assignments).where(assignments.c.query_id.in_(ids), IS_LIVE).values(state="cancelled", ended_at=tx.now)
     )
     money.release(tx, run, sum(row.reserve for row in rows))
     events.add(tx, run, "cancelled", {"queries": len(rows)})

@@ -16,6 +16,7 @@ from sqlalchemy import (
     Table,
     Text,
     UniqueConstraint,
+    literal_column,
     text,
 )
 
@@ -127,7 +128,7 @@ Index(
     sqlite_where=text("state = 'open'"),
     postgresql_where=text("state = 'open'"),
 )
-Index("ix_queries_run_state", queries.c.run_id, queries.c.state, queries.c.id)
+Index("ix_queries_run_state", queries.c.run_id, queries.c.state, queries.c.episode)
 
 assignments = Table(
     "assignments",
@@ -154,6 +155,10 @@ Index("uq_assignments_live", assignments.c.query_id, unique=True, sqlite_where=_
 Index("ix_assignments_expiry", assignments.c.expires_at, sqlite_where=_live, postgresql_where=_live)
 Index("ix_assignments_user_live", assignments.c.user_id, sqlite_where=_live, postgresql_where=_live)
 
+# Spelled out rather than bound, so that the databases see that the partial indexes above serve these conditions.
+IS_OPEN = queries.c.state == literal_column("'open'")
+IS_LIVE = assignments.c.state == literal_column("'live'")
+
 # Immutable (a trigger holds it). What counts is what queries.answer_id names; a late answer has no revision.
 answers = Table(
     "answers",
@@ -174,6 +179,7 @@ answers = Table(
     UniqueConstraint("user_id", "idempotency_key"),
     CheckConstraint("revision IS NOT NULL OR units = 0", name="late_is_free"),
     Index("ix_answers_run", "run_id", "id"),
+    Index("ix_answers_user", "user_id", "id"),
     sqlite_autoincrement=True,
 )
 

@@ -142,7 +142,7 @@ def upgrade() -> None:
         sqlite_where=sa.text("state = 'open'"),
         postgresql_where=sa.text("state = 'open'"),
     )
-    op.create_index("ix_queries_run_state", "queries", ["run_id", "state", "id"], unique=False)
+    op.create_index("ix_queries_run_state", "queries", ["run_id", "state", "episode"], unique=False)
 
     op.create_table(
         "assignments",
@@ -228,6 +228,7 @@ def upgrade() -> None:
         sqlite_autoincrement=True,
     )
     op.create_index("ix_answers_run", "answers", ["run_id", "id"], unique=False)
+    op.create_index("ix_answers_user", "answers", ["user_id", "id"], unique=False)
 
     op.create_table(
         "ledger",
