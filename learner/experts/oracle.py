@@ -74,10 +74,12 @@ class OracleExpert:
         (segment,) = ask.segments
         subgoal, origin = self._subgoal(segment.subgoal), segment.states[0]
         terminations = [self._oracle.reached(ask.instance, origin, state, subgoal) for state in segment.states]
-        done = terminations.index(True) if True in terminations else len(segment.states)
-        actions: list[str | None] = []
+        over, actions = False, list[str | None]()
         for step, (state, own) in enumerate(zip(segment.states, segment.actions, strict=False)):
-            good = [] if step >= done else self._oracle.good_actions(ask.instance, origin, state, subgoal)
+            over = over or terminations[step]
+            good = [] if over else self._oracle.good_actions(ask.instance, origin, state, subgoal)
+            if not good and not over:  # a subgoal that is not valid here is over before it begins
+                terminations[step] = over = True
             actions.append(self._domain.actions[_preferring(self._action(own), good)] if good else None)
         return wire.LabelLoAnswer(kind="label_lo", actions=actions, terminations=terminations)
 

@@ -1,0 +1,171 @@
+"""Algorithms 1 and 2, driven by hand: what they ask, in which order, and what they learn from the answers."""
+
+from collections.abc import Generator
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from learner.algorithms import ALGORITHMS, find_algorithm
+from learner.algorithms.h_bc import h_bc
+from learner.algorithms.hg_dagger import hg_dagger
+from learner.datasets import Labels
+from learner.queries import HierDemo, InspectFull, InspectLo, LabelHi, LabelLo, LoLabels, Query
+from learner.types import META, State, Trajectory
+from tests.learner.kit import examples, segment, state
+
+S = state("s")
+
+
+class ScriptedLearner:
+    """Rolls out the trajectory it was given."""
+
+    def __init__(self, sigma: Trajectory) -> None:
+        self.sigma = sigma
+        self.started_from: list[State] = []
+
+    def roll_out(self, s: State) -> Trajectory:
+        self.started_from.append(s)
+        return self.sigma
+
+
+class Expert:
+    """Answers from a script and keeps what was asked.
+
+    `lo_passes` says which segments pass, by place; Label_LO corrects each action to 1 and ends with the segment.
+    """
+
+    def __init__(self, sigma: Trajectory, passes: bool, good_subgoals: list[int], lo_passes: list[bool]) -> None:
+        self.sigma, self.passes, self.good_subgoals, self.lo_passes = sigma, passes, good_subgoals, lo_passes
+        self.asked: list[Query] = []
+
+    def __call__(self, query: Query) -> Any:
+        self.asked.append(query)
+        match query:
+            case InspectFull():
+                return self.passes
+            case LabelHi():
+                return tuple(self.good_subgoals)
+            case InspectLo(one):
+                return self.lo_passes[self.sigma.index(one)]
+            case LabelLo(one):
+                return LoLabels((1,) * len(one.actions), (*(False for _ in one.actions), True))
+        raise AssertionError(query)
+
+
+def carried_out(episode: Generator[Query, Any, Labels], expert: Expert) -> Labels:
+    query = next(episode)
+    while True:
+        try:
+            query = episode.send(expert(query))
+        except StopIteration as over:
+            return over.value
+
+
+def hg_dagger_episode(
+    subgoals: list[int], good_subgoals: list[int], lo_passes: list[bool], passes: bool = False
+) -> tuple[Trajectory, Expert, Labels]:
+    sigma = tuple(segment(subgoal, n_actions=2) for subgoal in subgoals)
+    learner: Any = ScriptedLearner(sigma)
+    expert = Expert(sigma, passes, good_subgoals, lo_passes)
+    labels = carried_out(hg_dagger(S, learner), expert)
+    assert learner.started_from == [S]
+    return sigma, expert, labels
+
+
+def test_a_pass_ends_the_episode_with_one_question_and_nothing_learned() -> None:
+    sigma, expert, labels = hg_dagger_episode([0, 1], [0, 1], [True, True], passes=True)
+    assert expert.asked == [InspectFull(sigma)]
+    assert labels.rows == {}
+
+
+def test_after_a_fail_the_segments_are_inspected_up_to_the_first_that_fails_which_is_labeled() -> None:
+    sigma, expert, labels = hg_dagger_episode([0, 1, 2, 3], [0, 1, 2, 3], [True, True, False, False])
+    assert expert.asked == [
+        InspectFull(sigma),
+        LabelHi(sigma),
+        InspectLo(sigma[0], before=()),
+        InspectLo(sigma[1], before=sigma[:1]),
+        InspectLo(sigma[2], before=sigma[:2]),
+        LabelLo(sigma[2], before=sigma[:2]),
+    ]
+    assert labels.rows.keys() == {META, 2}
+
+
+def test_the_first_wrong_subgoal_ends_the_inspections_and_its_segment_is_not_even_inspected() -> None:
+    sigma, expert, labels = hg_dagger_episode([0, 1, 2], [0, 3, 2], [True, False, False])
+    assert expert.asked == [InspectFull(sigma), LabelHi(sigma), InspectLo(sigma[0], before=())]
+    assert labels.rows.keys() == {META}
+
+
+def test_with_a_wrong_first_choice_the_high_level_alone_learns() -> None:
+    sigma, expert, _ = hg_dagger_episode([0, 1], [1, 1], [False, False])
+    assert expert.asked == [InspectFull(sigma), LabelHi(sigma)]
+
+
+def test_the_high_level_gets_every_label_of_the_trajectory_also_those_after_a_wrong_choice() -> None:
+    sigma, _, labels = hg_dagger_episode([0, 1, 2], [0, 3, 4], [True, True, True])
+    rows = labels.rows[META]
+    assert [row.choice for row in rows] == [0, 3, 4]
+    assert [row.observation is one.start.observation for row, one in zip(rows, sigma, strict=True)] == [True] * 3
+
+
+def test_the_low_level_labels_go_to_the_subgoal_that_was_pursued() -> None:
+    sigma, _, labels = hg_dagger_episode([4, 2], [4, 2], [True, False])
+    assert labels.rows.keys() == {META, 2}
+    rows = labels.rows[2]
+    assert [row.observation is s.observation for row, s in zip(rows, sigma[1].states, strict=True)] == [True] * 3
+    assert [row.choice for row in rows] == [1, 1, -1]
+
+
+def test_when_every_segment_passes_only_the_subgoals_are_learned() -> None:
+    sigma, expert, labels = hg_dagger_episode([0, 1], [0, 1], [True, True])
+    assert expert.asked[2:] == [InspectLo(sigma[0], before=()), InspectLo(sigma[1], before=sigma[:1])]
+    assert labels.rows.keys() == {META}
+
+
+choices = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4), st.booleans()), min_size=1, max_size=8)
+
+
+@examples
+@given(choices, st.booleans())
+def test_whatever_happens_the_questions_are_the_papers(script: list[tuple[int, int, bool]], passes: bool) -> None:
+    subgoals, good, lo_passes = (list(column) for column in zip(*script, strict=True))
+    sigma, expert, labels = hg_dagger_episode(subgoals, good, lo_passes, passes)
+
+    expected: list[Query] = [InspectFull(sigma)]  # Algorithm 2, lines 13-20, by hand
+    if not passes:
+        expected.append(LabelHi(sigma))
+        agreeing = next((h for h, (own, best) in enumerate(zip(subgoals, good, strict=True)) if own != best), len(good))
+        failing = next((h for h in range(agreeing) if not lo_passes[h]), None)
+        inspected = agreeing if failing is None else failing + 1
+        expected += [InspectLo(sigma[h], before=sigma[:h]) for h in range(inspected)]
+        if failing is not None:
+            expected.append(LabelLo(sigma[failing], before=sigma[:failing]))
+    assert expert.asked == expected
+    keys = set() if passes else {META} | {query.segment.subgoal for query in expected if isinstance(query, LabelLo)}
+    assert labels.rows.keys() == keys
+    assert all(query not in expert.asked[:place] for place, query in enumerate(expert.asked))
+
+
+def test_algorithm_1_asks_for_a_demonstration_from_the_start_state_and_learns_all_of_it() -> None:
+    demonstration = (segment(3, n_actions=2, action=1), segment(0, n_actions=1, action=2))
+    episode = h_bc(S, learner=None)  # type: ignore[arg-type]  # it never looks at its policies
+    assert next(episode) == HierDemo(S)
+    with pytest.raises(StopIteration) as over:
+        episode.send(demonstration)
+    labels = over.value.value
+    assert [row.choice for row in labels.rows[META]] == [3, 0]
+    assert [(row.choice, row.termination) for row in labels.rows[3]] == [(1, -1), (1, 0), (-1, 1)]
+    assert [(row.choice, row.termination) for row in labels.rows[0]] == [(2, -1), (-1, 1)]
+
+
+def test_interactive_algorithms_start_with_demonstrations() -> None:
+    assert ALGORITHMS["hg-dagger"].warm_start is h_bc
+    assert find_algorithm("h-bc").episode is h_bc
+
+
+def test_an_unknown_algorithm_is_refused_with_those_that_exist() -> None:
+    with pytest.raises(ValueError, match=r"no algorithm 'dagger'.*h-bc, hg-dagger"):
+        find_algorithm("dagger")

@@ -1,0 +1,114 @@
+"""What is put into the data buffers, and that nothing is lost there."""
+
+import numpy as np
+import torch
+from hypothesis import given
+from hypothesis import strategies as st
+
+from learner.datasets import UNLABELED, Dataset, Labels, Row
+from learner.queries import LoLabels
+from learner.types import FLAT, META, Segment, State
+from tests.learner.kit import examples, segment, state
+
+
+def learned(segment: Segment, labels: LoLabels) -> list[tuple[int, int]]:
+    """The (choice, termination) rows of a labeled segment."""
+    taught = Labels()
+    taught.append_lo(segment, labels)
+    return [(row.choice, row.termination) for row in taught.rows[segment.subgoal or 0]]
+
+
+def test_a_segment_that_should_go_on_teaches_every_action_and_that_it_is_not_over() -> None:
+    labels = LoLabels((3, 2), (False, False, False))
+    assert learned(segment(1, 2), labels) == [(3, UNLABELED), (2, 0), (UNLABELED, 0)]
+
+
+def test_the_state_where_a_segment_ends_has_a_termination_and_no_action() -> None:
+    labels = LoLabels((3, 2), (False, False, True))
+    assert learned(segment(1, 2), labels) == [(3, UNLABELED), (2, 0), (UNLABELED, 1)]
+
+
+def test_nothing_after_an_overshoot_is_learned_even_if_it_was_labeled() -> None:
+    labels = LoLabels((3, 2, 1, 0), (False, False, True, True, False))
+    assert learned(segment(1, 4), labels) == [(3, UNLABELED), (2, 0), (UNLABELED, 1)]
+
+
+def test_the_termination_at_the_first_state_is_never_learned() -> None:
+    assert learned(segment(1, 2), LoLabels((None, None), (True, True, True))) == []
+    assert learned(segment(1, 1), LoLabels((0,), (False, True))) == [(0, UNLABELED), (UNLABELED, 1)]
+
+
+@examples
+@given(
+    st.lists(st.tuples(st.one_of(st.none(), st.integers(0, 3)), st.booleans()), min_size=1, max_size=10), st.booleans()
+)
+def test_no_row_is_without_a_label_and_none_has_an_action_where_the_segment_ends(
+    steps: list[tuple[int | None, bool]], last: bool
+) -> None:
+    actions, ends = (tuple(column) for column in zip(*steps, strict=True))
+    rows = learned_or_nothing(segment(0, len(actions)), LoLabels(actions, (*ends, last)))
+    assert all(choice != UNLABELED or termination != UNLABELED for choice, termination in rows)
+    assert all(choice == UNLABELED for choice, termination in rows if termination == 1)
+    assert sum(termination == 1 for _, termination in rows) <= 1
+
+
+def learned_or_nothing(one: Segment, labels: LoLabels) -> list[tuple[int, int]]:
+    taught = Labels()
+    taught.append_lo(one, labels)
+    return [(row.choice, row.termination) for row in taught.rows[0]]
+
+
+def test_two_segments_of_one_subgoal_teach_the_same_policy_in_order() -> None:
+    taught = Labels()
+    taught.append_demonstration((segment(2, 1, action=0), segment(2, 1, action=3)))
+    assert [row.choice for row in taught.rows[2]] == [0, UNLABELED, 3, UNLABELED]
+    assert [row.choice for row in taught.rows[META]] == [2, 2]
+
+
+def test_flat_labels_are_one_action_for_each_state_but_the_last() -> None:
+    one = segment(None, 3)
+    taught = Labels()
+    taught.append_flat((one,), [2, 1, 0])
+    rows = taught.rows[FLAT]
+    assert [(row.choice, row.termination) for row in rows] == [(2, UNLABELED), (1, UNLABELED), (0, UNLABELED)]
+    assert [row.observation is s.observation for row, s in zip(rows, one.states, strict=False)] == [True] * 3
+
+
+def rows(n: int, first: int = 0) -> list[Row]:
+    return [Row(np.full(2, number, np.float32), number % 5, number % 2) for number in range(first, first + n)]
+
+
+def test_a_buffer_grows_past_its_room_and_keeps_every_row_in_order() -> None:
+    data = Dataset((2,))
+    data.append(rows(255))
+    data.append(rows(600, first=255))
+    assert len(data) == 855
+    assert data.observations[:, 1].tolist() == list(range(855))
+    assert data.labels.tolist() == [[number % 5, number % 2] for number in range(855)]
+
+
+def test_a_buffer_made_of_tensors_holds_them_and_goes_on_growing() -> None:
+    data = Dataset((2,))
+    data.append(rows(300))
+    again = Dataset.of(data.observations.clone(), data.labels.clone())
+    again.append(rows(1, first=300))
+    data.append(rows(1, first=300))
+    torch.testing.assert_close(again.observations, data.observations, rtol=0, atol=0)
+    torch.testing.assert_close(again.labels, data.labels, rtol=0, atol=0)
+
+
+def test_an_empty_buffer_survives_the_way_through_tensors() -> None:
+    empty = Dataset((3, 4, 4))
+    again = Dataset.of(empty.observations, empty.labels)
+    assert (len(again), again.observations.shape) == (0, (0, 3, 4, 4))
+    again.append([Row(np.ones((3, 4, 4), np.float32), 1)])
+    assert again.labels.tolist() == [[1, UNLABELED]]
+
+
+def test_a_row_is_kept_as_it_was_when_the_observation_changes_later() -> None:
+    observation = np.zeros(2, np.float32)
+    data = Dataset((2,))
+    data.append([Row(State(observation, None).observation, 0)])
+    observation[:] = 7
+    assert data.observations.tolist() == [[0, 0]]
+    assert state().observation.tolist() == [0, 0]
