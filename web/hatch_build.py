@@ -35,6 +35,6 @@ def build_page(web: Path) -> None:
             "or build web/dist elsewhere (npm ci && npm run build in web/) and copy it here."
         )
     for arguments in (["ci"], ["run", "build"]):
-        done = subprocess.run([npm, *arguments], cwd=web, check=False)
+        done = subprocess.run([npm, *arguments], cwd=web, check=False)  # noqa: S603
         if done.returncode != 0:
             raise RuntimeError(f"`npm {' '.join(arguments)}` failed in {web}; its output above says why.")

@@ -60,9 +60,11 @@ def served(built_page: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterat
 
 
 @pytest.fixture
-def learner(served: Served) -> Learner:
+def learner(served: Served) -> Iterator[Learner]:
     """The learner's side."""
-    return Learner(served)
+    learner = Learner(served)
+    yield learner
+    learner.close()
 
 
 @pytest.fixture

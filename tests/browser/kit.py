@@ -1,11 +1,11 @@
-"""What the page's tests are written with: a maze built by hand, a learner's queries about it, and a browser to answer in."""
+"""What the page's tests are written with: a maze built by hand, a learner's queries, a browser to answer in."""
 
 import shutil
 from dataclasses import dataclass, field
 from typing import Any
 
 import httpx2
-from playwright.sync_api import BrowserContext, ConsoleMessage, Page
+from playwright.sync_api import BrowserContext, ConsoleMessage, Page, expect
 
 from server import people, wire
 from server.serving import Served
@@ -126,6 +126,10 @@ class Learner:
             base_url=f"{served.url}/api/v1", headers={"Authorization": f"Bearer {token}"}, timeout=60
         )
 
+    def close(self) -> None:
+        """Close the connections."""
+        self._http.close()
+
     def call(self, method: str, path: str, body: Any = None) -> Any:
         """Call the API; the reply must be good."""
         reply = self._http.request(method, path, **({} if body is None else {"json": body}))
@@ -226,5 +230,6 @@ class Complaints:
 
 def wait_for_heading(page: Page, text: str) -> None:
     """Wait until the question (or what stands in its place) says this and has the focus."""
-    page.get_by_role("heading", name=text).wait_for()
-    page.wait_for_function("document.activeElement?.id === 'question'")
+    heading = page.get_by_role("heading", name=text, exact=True)
+    heading.wait_for()
+    expect(heading).to_be_focused()

@@ -1,0 +1,124 @@
+"""Everybody can use it: no violations of WCAG 2.2 A and AA that axe can find, on any view, light and dark."""
+
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import WEB, Open
+from tests.browser.kit import Learner, ask, wait_for_heading
+
+KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
+SMALL = {"width": 1024, "height": 768}
+TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
+
+
+def violations(page: Page) -> list[Any]:
+    """What axe finds on the page as it is."""
+    if not page.evaluate("'axe' in window"):
+        page.evaluate((WEB / "node_modules" / "axe-core" / "axe.min.js").read_text())
+    found = page.evaluate("tags => axe.run({ runOnly: tags })", TAGS)
+    return [(one["id"], [node["html"] for node in one["nodes"]]) for one in found["violations"]]
+
+
+@pytest.fixture(params=["light", "dark"])
+def scheme(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+def test_work_is_accessible(open_page: Open, learner: Learner, scheme: str) -> None:
+    run = learner.create_run("access", budget=500.0)
+    learner.ask(run, *[ask(kind, ordinal=ordinal) for ordinal, kind in enumerate(KINDS)])
+    page = open_page(f"/work?run={run}", scheme=scheme, size=SMALL, motion="reduce")
+    for kind in KINDS:
+        wait_for_heading(page, ask(kind)["question"])
+        if kind.startswith("label"):
+            page.keyboard.press("Enter")
+            page.keyboard.press("2")
+        if kind == "label_lo":
+            page.keyboard.press(".")
+            page.keyboard.press("d")
+        assert violations(page) == [], kind
+        page.keyboard.press("f" if "inspect" in kind else "Shift+Enter")
+    wait_for_heading(page, "Waiting for the learner")
+    expect(page.get_by_text("The next query appears here")).to_be_visible()
+    assert violations(page) == [], "waiting"
+
+
+def test_dialogs_are_accessible(open_page: Open, learner: Learner, scheme: str) -> None:
+    run = learner.create_run("dialogs")
+    learner.ask(run, ask("label_hi"))
+    page = open_page(f"/work?run={run}", scheme=scheme)
+    wait_for_heading(page, ask("label_hi")["question"])
+    for key in ("?", "Shift+S"):
+        page.keyboard.press(key)
+        page.get_by_role("dialog").wait_for()
+        assert violations(page) == [], key
+        page.keyboard.press("Escape")
+
+
+def test_runs_are_accessible(open_page: Open, learner: Learner, scheme: str) -> None:
+    run = learner.create_run("watched", budget=500.0)
+    learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
+    page = open_page(f"/work?run={run}", scheme=scheme)
+    wait_for_heading(page, ask("inspect_full")["question"])
+    page.keyboard.press("f")
+    wait_for_heading(page, ask("label_hi")["question"])
+    learner.report(run, [True, False, True])
+    page.goto(f"/runs/{run}")
+    page.locator("canvas").first.wait_for()
+    for summary in page.get_by_text("As a table").all():
+        summary.click()
+    assert violations(page) == [], "run"
+    page.goto("/runs")
+    page.get_by_role("row", name="watched").first.wait_for()
+    assert violations(page) == [], "runs"
+
+
+def test_login_is_accessible(open_page: Open, scheme: str) -> None:
+    page = open_page("/login", role=None, scheme=scheme)
+    page.get_by_role("heading", name="Sign in with a link").wait_for()
+    assert violations(page) == []
+
+
+def test_the_theme_is_chosen_and_remembered(open_page: Open) -> None:
+    page = open_page("/login", role=None, scheme="light")
+    background = "getComputedStyle(document.documentElement).backgroundColor"
+    light = page.evaluate(background)
+    for _ in range(2):  # from the system's to light to dark
+        page.get_by_role("button", name="Theme").click()
+    dark = page.evaluate(background)
+    assert dark != light
+    page.reload()
+    assert page.evaluate(background) == dark
+
+
+def test_tab_goes_through_the_segments_and_out_again(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("tab")
+    learner.ask(run, ask("label_hi"))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, ask("label_hi")["question"])
+    for _ in range(5 + 1):  # past the five subgoals, onto the first segment
+        page.keyboard.press("Tab")
+    page.keyboard.press("Tab")
+    current = page.locator("[aria-current=step]")
+    expect(current).to_be_focused()
+    expect(current).to_contain_text("2")
+    page.keyboard.press("w")
+    expect(page.locator("[aria-current=step]")).to_be_focused()
+    expect(page.locator("[aria-current=step]")).to_contain_text("3")
+    for _ in range(3):
+        page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="Keep").first).to_be_focused()
+
+
+@pytest.mark.parametrize("size", [(768, 1024), (1024, 768), (1440, 900), (1920, 1080), (844, 390)])
+def test_nothing_is_cut_off(open_page: Open, learner: Learner, size: tuple[int, int]) -> None:
+    run = learner.create_run("sizes")
+    learner.ask(run, ask("inspect_lo"))
+    page = open_page(f"/work?run={run}", size={"width": size[0], "height": size[1]})
+    wait_for_heading(page, ask("inspect_lo")["question"])
+    for name in ("Pass", "Fail", "Skip", "Undo"):
+        expect(page.get_by_role("button", name=name)).to_be_in_viewport(ratio=1)
+    expect(page.get_by_role("slider", name="Step")).to_be_in_viewport(ratio=1)
+    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")

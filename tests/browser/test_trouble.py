@@ -1,0 +1,210 @@
+"""What a person meets when something goes wrong: nothing is lost, and the page says what happened."""
+
+import time
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import expect
+
+from server import serving
+from server.settings import Settings
+from tests.browser.conftest import Open
+from tests.browser.kit import Complaints, Learner, ask, log_in, login_link, wait_for_heading
+
+QUESTION = ask("inspect_full")["question"]
+
+
+def test_an_answer_survives_an_outage(open_page: Open, learner: Learner, complaints: Complaints) -> None:
+    complaints.expect("net::ERR_")
+    run = learner.create_run("outage")
+    first, second = learner.ask(run, ask("inspect_full", 0), ask("inspect_full", 1, question="After the outage"))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, QUESTION)
+    page.route("**/api/**", lambda route: route.abort())
+    page.keyboard.press("f")
+    expect(page.get_by_text("1 unsaved")).to_be_visible()
+    wait_for_heading(page, "The server cannot be reached")
+    expect(page.get_by_text("1 answer kept here")).to_be_visible()
+    assert learner.query(first)["answer"] is None
+    page.unroute("**/api/**")
+    assert learner.answer_of(first) == {"kind": "inspect_full", "verdict": "fail"}
+    wait_for_heading(page, "After the outage")
+    expect(page.get_by_text("1 unsaved")).to_be_hidden()
+    page.keyboard.press("p")
+    learner.answer_of(second)
+    assert learner.call("GET", f"/runs/{run}/costs")["total"] == 2
+
+
+def test_an_answer_whose_receipt_was_lost_counts_once(
+    open_page: Open, learner: Learner, complaints: Complaints
+) -> None:
+    complaints.expect("net::ERR_")
+    run = learner.create_run("lost receipt")
+    [query, _] = learner.ask(run, ask("inspect_full", 0), ask("inspect_full", 1, question="The next one"))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, QUESTION)
+    lost = []
+
+    def lose_first(route) -> None:  # type: ignore[no-untyped-def]
+        if lost:
+            route.continue_()
+        else:
+            lost.append(route.fetch().status)
+            route.abort()
+
+    page.route("**/answer", lose_first)
+    page.keyboard.press("p")
+    wait_for_heading(page, "The next one")  # at once: the same receipt brings the same next query
+    assert lost == [200]
+    learner.answer_of(query)
+    assert learner.call("GET", f"/runs/{run}/costs")["total"] == 1
+
+
+def test_an_unsaved_answer_survives_a_reload(open_page: Open, learner: Learner, complaints: Complaints) -> None:
+    complaints.expect("net::ERR_")
+    run = learner.create_run("reload unsaved")
+    [query] = learner.ask(run, ask("inspect_full"))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, QUESTION)
+    asked_to_stay = []
+    page.on("dialog", lambda dialog: (asked_to_stay.append(dialog.type), dialog.accept()))
+    page.route("**/answer", lambda route: route.abort())
+    page.keyboard.press("p")
+    expect(page.get_by_text("1 unsaved")).to_be_visible()
+    page.unroute("**/answer")
+    page.route("**/answer", lambda route: route.abort(), times=1)
+    page.reload()
+    assert asked_to_stay == ["beforeunload"]
+    assert learner.answer_of(query)["verdict"] == "pass"
+
+
+def test_a_reload_goes_on_with_the_same_query(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("reload")
+    learner.ask(run, ask("label_hi"))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, ask("label_hi")["question"])
+    page.reload()
+    wait_for_heading(page, ask("label_hi")["question"])
+
+
+def test_leaving_gives_the_query_back(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("leaving")
+    learner.ask(run, ask("inspect_full"))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, QUESTION)
+    page.get_by_role("link", name="Runs").click()
+    page.get_by_role("heading", name="Runs").wait_for()
+    other = open_page(f"/work?run={run}")
+    wait_for_heading(other, QUESTION)
+    other.close()
+    wait_for_heading(open_page(f"/work?run={run}"), QUESTION)
+
+
+def test_undo_takes_the_last_answer_back_with_its_labels(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("undo")
+    first, second = learner.ask(run, ask("label_hi", 0), ask("inspect_full", 1))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, ask("label_hi")["question"])
+    page.keyboard.press("w")
+    page.keyboard.press("Shift+Enter")
+    wait_for_heading(page, QUESTION)
+    page.keyboard.press("u")
+    wait_for_heading(page, ask("label_hi")["question"])
+    expect(page.get_by_text("Taken back.")).to_be_visible()
+    assert learner.query(first)["answer"] is None
+    page.keyboard.press("n")
+    page.keyboard.press("Enter")
+    assert learner.answer_of(first)["subgoals"][:2] == ["west", "north"]
+    wait_for_heading(page, QUESTION)
+    page.keyboard.press("p")
+    learner.answer_of(second)
+
+
+def test_undo_works_while_waiting_and_not_once_the_learner_has_used_the_answer(
+    open_page: Open, learner: Learner, complaints: Complaints
+) -> None:
+    complaints.expect("409")
+    run = learner.create_run("used")
+    [query] = learner.ask(run, ask("inspect_full"))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, QUESTION)
+    page.keyboard.press("u")
+    expect(page.get_by_text("There is no answer to take back yet.")).to_be_visible()
+    page.keyboard.press("p")
+    wait_for_heading(page, "Waiting for the learner")
+    page.keyboard.press("u")
+    wait_for_heading(page, QUESTION)
+    page.keyboard.press("f")
+    assert learner.answer_of(query)["verdict"] == "fail"
+    learner.use(query)
+    wait_for_heading(page, "Waiting for the learner")
+    page.keyboard.press("u")
+    expect(page.get_by_text("already used that answer")).to_be_visible()
+
+
+@pytest.fixture
+def hasty(built_page: Path, tmp_path: Path):  # type: ignore[no-untyped-def]
+    """A server whose leases are over in a second, however often they are renewed."""
+    settings = Settings(
+        database=f"sqlite:///{tmp_path / 'waypost.db'}", page=built_page, lease_seconds=0.6, lease_cap_seconds=0.7
+    )
+    with serving.background(settings) as served:
+        yield served
+
+
+def test_a_lease_that_ran_out_is_explained_and_work_goes_on(
+    hasty: serving.Served, open_page: Open, complaints: Complaints
+) -> None:
+    complaints.expect("409")
+    learner = Learner(hasty)
+    run = learner.create_run("hasty")
+    learner.ask(run, ask("inspect_full"))
+    page = open_page(f"/work?run={run}", at=hasty)
+    expect(page.get_by_text("went back to the queue")).to_be_visible()
+    wait_for_heading(page, QUESTION)
+    learner.close()
+
+
+def test_a_login_link_opens_once(open_page: Open, served: serving.Served, complaints: Complaints) -> None:
+    complaints.expect("401")
+    link = login_link(served, "one-time", "viewer")
+    page = open_page(link, role=None)
+    page.get_by_role("heading", name="Runs").wait_for()
+    assert "#" not in page.url
+    used = open_page(link, role=None)
+    expect(used.get_by_role("heading", name="This login link does not work any more")).to_be_visible()
+    assert "#" not in used.url
+    signed_out = open_page("/work", role=None)
+    expect(signed_out.get_by_role("heading", name="You are not signed in")).to_be_visible()
+
+
+def test_a_login_link_can_lead_to_a_run(open_page: Open, learner: Learner, served: serving.Served) -> None:
+    run = learner.create_run("led here")
+    page = open_page(login_link(served, "led", "annotator").replace("/login#", f"/login?run={run}#"), role=None)
+    expect(page.get_by_role("heading", name="led here")).to_be_visible()
+
+
+def test_a_viewer_is_told_why_there_is_no_work(open_page: Open, complaints: Complaints) -> None:
+    complaints.expect("403")
+    page = open_page("/work", role="viewer")
+    wait_for_heading(page, "This account cannot answer queries")
+
+
+def test_what_is_kept_while_signed_out_is_sent_after_signing_in(
+    open_page: Open, learner: Learner, served: serving.Served, complaints: Complaints
+) -> None:
+    complaints.expect("401")
+    run = learner.create_run("signed out")
+    [query] = learner.ask(run, ask("inspect_full"))
+    page = open_page(f"/work?run={run}", role=None)
+    log_in(page.context, served, "comes-back", "annotator")
+    page.reload()
+    wait_for_heading(page, QUESTION)
+    page.context.clear_cookies()
+    page.keyboard.press("p")
+    wait_for_heading(page, "You are not signed in")
+    expect(page.get_by_text("1 answer kept in this tab")).to_be_visible()
+    log_in(page.context, served, "comes-back", "annotator")
+    started = time.monotonic()
+    assert learner.answer_of(query)["verdict"] == "pass"
+    assert time.monotonic() - started < 9
