@@ -1,0 +1,193 @@
+"""Train(policy, D): what is learned, from which labels, and that the same seed learns the same."""
+
+import numpy as np
+import pytest
+import torch
+
+from learner.checkpoints import weights_hash
+from learner.datasets import UNLABELED, Dataset, Labels, Row
+from learner.domains.corridor import CorridorDomain
+from learner.domains.maze.domain import MazeDomain
+from learner.learner import Learner
+from learner.networks import NetworkSpec, build_network
+from learner.policies import Policy, TrainSpec
+from learner.types import META
+from tests.learner.kit import TINY
+
+SPEC = TrainSpec(learning_rate=5e-3, batch=16, samples_per_round=256, dropout=0.0)
+NETWORK = NetworkSpec(channels=(4,), hidden=16)
+
+
+def policy(seed: int = 0, terminates: bool = True, spec: TrainSpec = SPEC, shape: tuple[int, ...] = (2,)) -> Policy:
+    return Policy(shape, 2, terminates, NETWORK, spec, seed)
+
+
+def data(n: int, choice: bool = True, termination: bool = True, seed: int = 0) -> Dataset:
+    """Points of the square; the choice is the sign of the first coordinate, the termination that of the second."""
+    points = np.random.default_rng(seed).uniform(-1, 1, (n, 2)).astype(np.float32)
+    filled = Dataset((2,))
+    filled.append(
+        Row(point, int(point[0] > 0) if choice else UNLABELED, int(point[1] > 0) if termination else UNLABELED)
+        for point in points
+    )
+    return filled
+
+
+def weights(trained: Policy) -> list[torch.Tensor]:
+    return [parameter.detach().clone() for parameter in trained.network.parameters()]
+
+
+def equal(one: list[torch.Tensor], other: list[torch.Tensor]) -> list[bool]:
+    return [bool(torch.equal(a, b)) for a, b in zip(one, other, strict=True)]
+
+
+def test_a_policy_with_terminations_learns_both_of_a_separable_task() -> None:
+    learned = policy()
+    for _ in range(12):
+        learned.train(data(200))
+    test = data(200, seed=1)
+    says = learned(test.observations.numpy())
+    assert (says.logits.argmax(1) == test.labels[:, 0].numpy()).mean() > 0.95
+    assert ((says.termination > 0.5) == test.labels[:, 1].numpy()).mean() > 0.95
+
+
+def test_rows_without_any_label_teach_nothing() -> None:
+    trained = policy()
+    before = weights(trained)
+    trained.train(data(50, choice=False, termination=False))
+    assert all(equal(before, weights(trained)))
+
+
+def test_without_action_labels_the_choices_stay_as_they_are() -> None:
+    trained = policy()
+    before = weights(trained)
+    trained.train(data(50, choice=False))
+    *_, weight, bias = weights(trained)
+    assert torch.equal(weight[:2], before[-2][:2])
+    assert torch.equal(bias[:2], before[-1][:2])
+    assert not torch.equal(weight[2], before[-2][2])
+
+
+def test_without_termination_labels_the_termination_stays_as_it_is() -> None:
+    trained = policy()
+    before = weights(trained)
+    trained.train(data(50, termination=False))
+    *_, weight, bias = weights(trained)
+    assert torch.equal(weight[2], before[-2][2])
+    assert torch.equal(bias[2], before[-1][2])
+    assert not torch.equal(weight[:2], before[-2][:2])
+
+
+def test_one_unlabeled_row_more_in_a_batch_only_scales_what_the_others_teach() -> None:
+    labeled = Dataset((2,))
+    labeled.append([Row(np.array([1, 1], np.float32), 0, 1)])
+    both = Dataset((2,))
+    both.append([Row(np.array([1, 1], np.float32), 0, 1), Row(np.array([-5, 3], np.float32), UNLABELED)])
+    gradients = []
+    for some in (labeled, both):
+        trained = policy(spec=TrainSpec(batch=2, samples_per_round=len(some), dropout=0.0, bf16=False))
+        trained.train(some)
+        gradients.append([parameter.grad.clone() for parameter in trained.network.parameters()])
+    for alone, beside in zip(*gradients, strict=True):
+        torch.testing.assert_close(alone / 2, beside)
+
+
+def test_an_empty_buffer_trains_nothing() -> None:
+    trained = policy()
+    before = weights(trained)
+    trained.train(Dataset((2,)))
+    assert all(equal(before, weights(trained)))
+
+
+def test_a_round_takes_its_number_of_samples_however_few_rows_there_are() -> None:
+    for n in (1, 100, 256, 1_000):
+        trained = policy()
+        trained.train(data(n))
+        steps = {int(state["step"]) for state in trained.optimizer.state_dict()["state"].values()}
+        assert steps == {SPEC.samples_per_round // SPEC.batch}
+
+
+def test_a_policy_without_a_termination_head_never_fires() -> None:
+    says = policy(terminates=False)(np.zeros((3, 2), np.float32))
+    assert says.logits.shape == (3, 2)
+    assert says.termination.tolist() == [0, 0, 0]
+
+
+def test_a_policy_says_the_same_of_a_state_alone_and_in_a_batch_also_after_training() -> None:
+    trained = policy(shape=(3, 17, 17))
+    batch = np.random.default_rng(0).normal(size=(5, 3, 17, 17)).astype(np.float32)
+    filled = Dataset((3, 17, 17))
+    filled.append(Row(picture, 1, 0) for picture in batch)
+    trained.train(filled)
+    together = trained(batch)
+    for place in range(5):
+        alone = trained(batch[place : place + 1])
+        np.testing.assert_allclose(alone.logits[0], together.logits[place], rtol=1e-5, atol=1e-6)
+
+
+def maze_labels(seed: int) -> Labels:
+    rng = np.random.default_rng(seed)
+    labels = Labels()
+    for key in (META, 0, 1, 2, 3, 4):
+        labels.rows[key] = [
+            Row(rng.normal(size=(3, 17, 17)).astype(np.float32), int(rng.integers(4)), 0 if key >= 0 else UNLABELED)
+            for _ in range(40)
+        ]
+    return labels
+
+
+def trained_hash(threads: int, seed: int = 0) -> str:
+    learner = Learner(MazeDomain(), TINY, seed, threads=threads)
+    for episode in range(3):
+        learner.learn(maze_labels(episode))
+    return weights_hash(learner)
+
+
+def test_the_same_seed_gives_the_same_weights_to_the_last_bit_on_one_thread_and_on_two() -> None:
+    once = trained_hash(threads=1)
+    assert trained_hash(threads=1) == once
+    assert [trained_hash(threads=2) for _ in range(3)] == [once] * 3
+
+
+def test_another_seed_gives_other_weights() -> None:
+    assert trained_hash(threads=1, seed=1) != trained_hash(threads=1)
+
+
+def test_policies_whose_buffer_did_not_grow_are_not_trained() -> None:
+    learner = Learner(CorridorDomain(), TINY, seed=0, threads=1)
+    before = {key: weights(one) for key, one in learner.policies.items()}
+    labels = Labels()
+    labels.rows[1] = [Row(np.zeros(26, np.float32), 0)]
+    labels.rows[2] = []
+    learner.learn(labels)
+    changed = {key for key, one in learner.policies.items() if not all(equal(before[key], weights(one)))}
+    assert changed == {1}
+
+
+def test_training_in_bf16_where_the_processor_has_it_keeps_the_weights_in_32_bits() -> None:
+    trained = policy(shape=(3, 17, 17))
+    filled = Dataset((3, 17, 17))
+    filled.append([Row(np.ones((3, 17, 17), np.float32), 1, 0)])
+    trained.train(filled)
+    assert {weight.dtype for weight in weights(trained)} == {torch.float32}
+    assert all(torch.isfinite(weight).all() for weight in weights(trained))
+
+
+def test_the_papers_network_has_the_layers_of_table_1() -> None:
+    layers = build_network((3, 17, 17), 4, NetworkSpec(), 0.5, torch.Generator())
+    sizes = [(layer.in_channels, layer.out_channels) for layer in layers if isinstance(layer, torch.nn.Conv2d)]
+    assert sizes == [(3, 32), (32, 32), (32, 64), (64, 64)]
+    assert [layer.out_features for layer in layers if isinstance(layer, torch.nn.Linear)] == [256, 4]
+    assert sum(isinstance(layer, torch.nn.MaxPool2d) for layer in layers) == 2
+
+
+def test_observations_of_another_shape_are_refused_with_the_shapes_that_work() -> None:
+    with pytest.raises(ValueError, match=r"\(C, rows, columns\) or \(features,\)"):
+        build_network((3, 17), 4, NetworkSpec(), 0.5, torch.Generator())
+
+
+def test_dropout_is_on_in_training_alone() -> None:
+    trained = policy(spec=TrainSpec(dropout=0.9, samples_per_round=16, batch=16))
+    trained.train(data(16))
+    batch = np.ones((1, 2), np.float32)
+    np.testing.assert_array_equal(trained(batch).logits, trained(batch).logits)

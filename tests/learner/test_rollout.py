@@ -1,0 +1,169 @@
+"""Rollouts are those of Algorithm 2, and batches of them the same as one by one."""
+
+from collections.abc import Callable, Mapping
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from learner.domains.base import Horizons
+from learner.domains.corridor import Corridor, CorridorDomain
+from learner.domains.maze.domain import MazeDomain
+from learner.domains.maze.generator import maze_set
+from learner.learner import TEST, TRAIN, Learner
+from learner.policies import Outputs
+from learner.rollout import Choosing, choose, hierarchical_rollout, run, run_all
+from learner.simulator import Simulator
+from learner.types import FLAT, META, Trajectory, n_actions
+from tests.learner.kit import GREEDY, TINY, examples
+
+WEST, EAST, TARGET = range(3)
+
+
+class Fixed:
+    """A policy that always prefers one choice; beta_g fires with a given probability, or per observation."""
+
+    def __init__(self, choice: int, n: int, termination: float | Callable[[np.ndarray], float] = 0.0) -> None:
+        self.choice, self.n, self.termination = choice, n, termination
+        self.batches: list[int] = []
+
+    def __call__(self, observations: np.ndarray) -> Outputs:
+        self.batches.append(len(observations))
+        logits = np.zeros((len(observations), self.n), np.float32)
+        logits[:, self.choice] = 1
+        fires = [self.termination(o) if callable(self.termination) else self.termination for o in observations]
+        return Outputs(logits, np.array(fires, np.float32))
+
+
+def corridor_policies(beta: float | Callable[[np.ndarray], float]) -> Mapping[int, Any]:
+    return {META: Fixed(EAST, 3), WEST: Fixed(0, 2, beta), EAST: Fixed(1, 2, beta), TARGET: Fixed(1, 2, beta)}
+
+
+def rolled_out(instance: Corridor, beta: float | Callable[[np.ndarray], float]) -> Trajectory:
+    rollout = hierarchical_rollout(Simulator(CorridorDomain()), instance, GREEDY, np.random.default_rng(0))
+    return run(rollout, corridor_policies(beta))
+
+
+def test_a_termination_that_always_fires_still_leaves_one_step_to_every_segment() -> None:
+    sigma = rolled_out(Corridor(0, 12), beta=1.0)
+    assert [len(segment.actions) for segment in sigma] == [1] * 12
+    assert all(segment.terminated for segment in sigma[:-1])
+    assert not sigma[-1].terminated  # the episode ended it
+
+
+def test_a_segment_ends_where_its_termination_fires_and_the_next_begins_there() -> None:
+    def at_a_door(observation: np.ndarray) -> float:
+        return float(np.argmax(observation[:13]) % 4 == 0)
+
+    sigma = rolled_out(Corridor(0, 11), beta=at_a_door)
+    assert [[state.view for state in segment.states] for segment in sigma] == [
+        [0, 1, 2, 3, 4],
+        [4, 5, 6, 7, 8],
+        [8, 9, 10, 11],
+    ]
+    assert [segment.terminated for segment in sigma] == [True, True, False]
+
+
+def test_a_segment_is_at_most_as_long_as_the_horizon() -> None:
+    sigma = rolled_out(Corridor(0, 12), beta=0.0)
+    assert [len(segment.actions) for segment in sigma] == [6, 6]
+    assert [segment.terminated for segment in sigma] == [False, False]
+
+
+def test_the_threshold_has_to_be_passed_not_met() -> None:
+    assert [len(segment.actions) for segment in rolled_out(Corridor(0, 12), beta=0.75)] == [6, 6]
+    rollout = hierarchical_rollout(
+        Simulator(CorridorDomain()), Corridor(0, 12), Choosing(0, termination_threshold=0.75), np.random.default_rng(0)
+    )
+    assert [len(segment.actions) for segment in run(rollout, corridor_policies(beta=0.75))] == [6, 6]
+
+
+def test_an_episode_ends_with_the_environments_truncation() -> None:
+    sigma = rolled_out(Corridor(11, 0), beta=0.0)  # walks east, away from the target
+    assert n_actions(sigma) == 30
+    assert all(segment.states[-1] is following.states[0] for segment, following in pairwise(sigma))
+
+
+def contents(trajectories: list[Trajectory]) -> list[Any]:
+    """All there is to know of trajectories."""
+    return [
+        (s.subgoal, s.actions, s.terminated, [(x.view, x.observation.tobytes()) for x in s.states])
+        for sigma in trajectories
+        for s in sigma
+    ]
+
+
+@pytest.mark.parametrize("choosing", [GREEDY, TINY.choosing, Choosing(temperature=1.0, termination_threshold=0.4)])
+@pytest.mark.parametrize("flat", [False, True])
+def test_rollouts_in_step_are_the_same_as_one_by_one(choosing: Choosing, flat: bool) -> None:
+    domain = MazeDomain()
+    preset = type(TINY)(TINY.warm_start, TINY.network, TINY.train_hi, TINY.train_lo, choosing)
+    learner = Learner(domain, preset, seed=3, flat=flat, threads=1)
+    mazes = maze_set("random")[0][:24]
+
+    def rollouts() -> list[Any]:
+        return [learner.rollout(Simulator(domain), maze, TEST, i) for i, maze in enumerate(mazes)]
+
+    together = run_all(rollouts(), learner.policies)
+    apart = [run(rollout, learner.policies) for rollout in rollouts()]
+    assert contents(together) == contents(apart)
+    assert len({segment.subgoal for sigma in together for segment in sigma}) == (1 if flat else 5) or choosing == GREEDY
+
+
+@examples
+@given(st.integers(0, 10_000))
+def test_there_are_no_segments_without_a_step_and_none_longer_than_the_horizon(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    domain = CorridorDomain()
+
+    def saying_anything(n: int) -> Callable[[np.ndarray], Outputs]:
+        return lambda seen: Outputs(rng.normal(size=(len(seen), n)).astype(np.float32), rng.random(len(seen)))
+
+    policies: Any = {META: saying_anything(3), **{subgoal: saying_anything(2) for subgoal in (WEST, EAST, TARGET)}}
+    rollout = hierarchical_rollout(Simulator(domain), Corridor(5, 11), Choosing(1.0, 0.5), rng)
+    sigma = run(rollout, policies)
+    assert all(1 <= len(segment.actions) <= domain.horizons.lo for segment in sigma)
+    assert all(len(segment.states) == len(segment.actions) + 1 for segment in sigma)
+    assert n_actions(sigma) <= domain.horizons.full
+    assert domain.horizons == Horizons(lo=6, hi=30, full=30)
+
+
+def test_a_flat_rollout_is_one_segment_without_a_subgoal_up_to_the_end_of_the_episode() -> None:
+    learner = Learner(CorridorDomain(), TINY, seed=0, flat=True, threads=1)
+    policies: Any = {FLAT: Fixed(1, 2)}
+    (segment,) = run(learner.rollout(learner.simulator, Corridor(2, 12), TRAIN, 0), policies)
+    assert (segment.subgoal, segment.actions, segment.terminated) == (None, (1,) * 10, False)
+
+
+def test_networks_see_batches_when_rollouts_run_in_step() -> None:
+    policies = corridor_policies(0.0)
+    rollouts = [
+        hierarchical_rollout(Simulator(CorridorDomain()), Corridor(start, 12), GREEDY, np.random.default_rng(0))
+        for start in (0, 0, 0)
+    ]
+    run_all(rollouts, policies)
+    assert set(policies[EAST].batches) == {3}
+
+
+def test_draws_depend_on_seed_stream_and_episode_alone() -> None:
+    learner = Learner(CorridorDomain(), TINY, seed=0, threads=1)
+
+    def actions(stream: int, episode: int) -> list[tuple[int, ...]]:
+        hot = Choosing(temperature=10.0, termination_threshold=2.0)
+        learner.preset = type(TINY)(0, TINY.network, TINY.train_hi, TINY.train_lo, hot)
+        sigma = run(learner.rollout(Simulator(learner.domain), Corridor(5, 12), stream, episode), learner.policies)
+        return [segment.actions for segment in sigma]
+
+    assert actions(TRAIN, 4) == actions(TRAIN, 4)
+    assert actions(TRAIN, 4) != actions(TRAIN, 5)
+    assert actions(TRAIN, 4) != actions(TEST, 4)
+
+
+def test_choices_are_drawn_from_the_softmax_at_the_temperature() -> None:
+    logits, rng = np.array([0.0, 0.1, 0.2], np.float32), np.random.default_rng(0)
+    drawn = np.bincount([choose(logits, Choosing(temperature=0.1), rng) for _ in range(4_000)], minlength=3) / 4_000
+    np.testing.assert_allclose(drawn, np.exp([0, 1, 2]) / np.exp([0, 1, 2]).sum(), atol=0.03)
+    assert choose(logits, GREEDY, rng) == 2
