@@ -50,8 +50,8 @@ class InProcessTransport(httpx2.BaseTransport):
 
     async def _handle(self, request: httpx2.Request) -> httpx2.Response:
         response = await self._asgi.handle_async_request(request)
-        content = await response.aread()
-        return httpx2.Response(response.status_code, headers=response.headers, content=content)
+        body = b"".join([part async for part in response.aiter_raw()])  # still compressed, as its headers say
+        return httpx2.Response(response.status_code, headers=response.headers, content=body)
 
     def _run(self, work: Coroutine[Any, Any, T]) -> T:
         return asyncio.run_coroutine_threadsafe(work, self._loop).result()

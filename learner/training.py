@@ -61,7 +61,9 @@ def embedded(store: Path) -> Iterator[Connection]:
             user = db.write_now(lambda tx: people.ensure_user(tx, name, role))
             token = db.write_now(lambda tx: people.create_token(tx, user.id, "embedded"))
             stack.callback(db.write_now, lambda tx: people.revoke_token(tx, token.id))
-            return Client("http://localhost", token.token, transport)
+            client = Client("http://localhost", token.token, transport)
+            stack.callback(client.close)
+            return client
 
         yield Connection(connect("learner", "learner"), connect("oracle", "annotator"))
 

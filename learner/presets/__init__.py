@@ -1,9 +1,10 @@
 """Presets: every value that fixes how a run learns, in one readable file each."""
 
 from learner.presets.base import Preset
+from learner.presets.demo import DEMO
 from learner.presets.paper import PAPER
 
-PRESETS = {"paper": PAPER}
+PRESETS = {"demo": DEMO, "paper": PAPER}
 
 
 def find_preset(name: str) -> Preset:
