@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import torch
 
+from learner.domains.base import Symmetry
 from learner.queries import LoLabels
 from learner.types import FLAT, META, Action, PolicyKey, Segment, Subgoal, Trajectory
 
@@ -96,6 +97,21 @@ class Labels:
             terminations = (*(False for _ in segment.actions), True)
             self.append_lo(segment, LoLabels(segment.actions, terminations))
         self.append_hi(demonstration, [s.subgoal for s in demonstration if s.subgoal is not None])
+
+    def seen_through(self, symmetry: Symmetry) -> "Labels":
+        """Return what the same labels say of the changed picture."""
+
+        def changed(key: PolicyKey, row: Row) -> Row:
+            names = symmetry.subgoals if key == META else symmetry.actions
+            choice = UNLABELED if row.choice == UNLABELED else names[row.choice]
+            return Row(symmetry.observe(row.observation), choice, row.termination)
+
+        return Labels(
+            {
+                (symmetry.subgoals[key] if key >= 0 else key): [changed(key, row) for row in rows]
+                for key, rows in self.rows.items()
+            }
+        )
 
     def append_flat(self, trajectory: Trajectory, good_actions: Sequence[Action]) -> None:
         """D <- D + {(s, a*)} over the full trajectory."""

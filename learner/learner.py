@@ -60,7 +60,10 @@ class Learner:
 
     def learn(self, labels: Labels) -> None:
         """Append to the data buffers, then Train the policies whose buffer grew (docs/paper.md, deviation 6)."""
-        grown = [key for key, rows in labels.rows.items() if rows]
-        for key in grown:
-            self.data[key].append(labels.rows[key])
-        list(self._threads.map(lambda key: self.policies[key].train(self.data[key]), grown))
+        grown: set[PolicyKey] = set()
+        symmetries = self.domain.symmetries if self.preset.symmetries else ()
+        for seen in (labels, *(labels.seen_through(symmetry) for symmetry in symmetries)):
+            for key, rows in seen.rows.items():
+                self.data[key].append(rows)
+                grown |= {key} if rows else set()
+        list(self._threads.map(lambda key: self.policies[key].train(self.data[key]), sorted(grown)))

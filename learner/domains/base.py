@@ -5,12 +5,14 @@ horizons, JSON views of instances and states, and (optionally) an oracle of a fe
 the paper are derived (`learner/experts/oracle.py`). `learner/domains/corridor.py` is the smallest complete example.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import entry_points
 from typing import Any, Protocol
 
 import gymnasium
+import numpy as np
+from numpy.typing import NDArray
 
 from learner.types import Action, Subgoal
 
@@ -30,6 +32,15 @@ class InstanceSets:
 
     train: Sequence[Any]
     test: Sequence[Any]
+
+
+@dataclass(frozen=True)
+class Symmetry:
+    """A change of the picture under which labels stay right: what is north becomes east, and so on."""
+
+    observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]  # the changed observation
+    subgoals: tuple[Subgoal, ...]  # what each subgoal becomes
+    actions: tuple[Action, ...]  # what each action becomes
 
 
 class Oracle(Protocol):
@@ -60,6 +71,7 @@ class Domain(Protocol):
     renderer: str
     horizons: Horizons
     observation_shape: tuple[int, ...]
+    symmetries: tuple[Symmetry, ...]  # beside the identity; () if there are none
     oracle: Oracle | None
 
     def make_env(self) -> gymnasium.Env[Any, Any]:

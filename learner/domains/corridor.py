@@ -14,7 +14,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from learner.domains.base import Horizons, InstanceSets
+from learner.domains.base import Horizons, InstanceSets, Symmetry
 
 CELLS = 13
 DOORS = 4  # cells from door to door
@@ -122,6 +122,14 @@ class CorridorDomain:
     renderer = "corridor"
     horizons = Horizons(lo=6, hi=MAX_STEPS, full=MAX_STEPS)
     observation_shape = (2 * CELLS,)
+    symmetries = (
+        Symmetry(
+            # Mirror both one-hot halves: west and east change places.
+            observe=lambda observation: np.concatenate([observation[CELLS - 1 :: -1], observation[: CELLS - 1 : -1]]),
+            subgoals=(EAST, WEST, TARGET),
+            actions=(EAST, WEST),
+        ),
+    )
 
     def __init__(self) -> None:
         self.oracle = CorridorOracle()

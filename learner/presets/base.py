@@ -16,3 +16,4 @@ class Preset:
     train_hi: TrainSpec
     train_lo: TrainSpec
     choosing: Choosing
+    symmetries: bool = False  # whether each label is also learned from in the domain's other symmetries

@@ -11,4 +11,5 @@ DEMO = Preset(
     train_hi=TrainSpec(learning_rate=1e-3, batch=64, samples_per_round=2048, dropout=0.1),
     train_lo=TrainSpec(learning_rate=1e-3, batch=64, samples_per_round=512, dropout=0.1),
     choosing=Choosing(temperature=0.1, termination_threshold=0.9),
+    symmetries=True,
 )

@@ -9,6 +9,7 @@ from learner.domains.maze.files import load_mazes
 from learner.domains.maze.generator import KINDS, maze_set
 from learner.domains.maze.maze import ACTIONS, SIZE, SUBGOALS, Maze
 from learner.domains.maze.oracle import MazeOracle
+from learner.domains.maze.symmetries import symmetries
 
 
 class MazeDomain:
@@ -20,6 +21,7 @@ class MazeDomain:
     renderer = "maze"
     horizons = Horizons(lo=10, hi=MAX_STEPS, full=MAX_STEPS)
     observation_shape = (3, SIZE, SIZE)
+    symmetries = symmetries()
 
     def __init__(self) -> None:
         self.oracle = MazeOracle()
