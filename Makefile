@@ -54,7 +54,7 @@ lint-web: web/node_modules/.stamp $(VENV)/.dev
 	@cd web && ../$(WITH_NODE) npm run --silent types:check
 
 bench: $(VENV)/.dev
-	@exec $(PYTHON) -m bench $(ARGS)
+	@set -e; for file in bench/*.py; do echo "== $$file"; PYTHONPATH=. $(PYTHON) "$$file" $(ARGS); done
 
 clean:
 	rm -rf $(VENV) web/node_modules web/dist server/static .mypy_cache .ruff_cache .pytest_cache .import_linter_cache \

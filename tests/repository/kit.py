@@ -78,11 +78,11 @@ def invocations(text: str) -> list[str]:
     for line in text.splitlines():
         line = re.sub(r"\s#.*", "", line)
         for inner in re.findall(r"\$\((waypost [^()]*)\)", line):
-            found.append(inner)
+            found.append(inner.strip())
         outer = re.sub(r"\$\([^()]*\)", "x", line)
         match = re.match(r"\s*(?:exec\s+)?(?:\w+=\S*\s+)*(waypost [^|&<>;]*)", outer)
         if match:
-            found.append(match[1])
+            found.append(match[1].strip())
     return found
 
 

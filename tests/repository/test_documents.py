@@ -50,7 +50,7 @@ def test_a_wrong_command_would_be_noticed(line):
 
 def test_commands_are_found_wherever_a_shell_has_them():
     text = "A=$(waypost token create bot) waypost oracle --defer 5 &\nwaypost serve   # waypost bake\n"
-    assert invocations(text) == ["waypost token create bot", "waypost oracle --defer 5 ", "waypost serve"]
+    assert invocations(text) == ["waypost token create bot", "waypost oracle --defer 5", "waypost serve"]
 
 
 def sections(text: str) -> dict[str, str]:
@@ -113,3 +113,11 @@ def test_every_decision_has_its_four_parts():
         text = record.read_text()
         for part in ("Context", "Decision", "Consequences", "Alternatives"):
             assert f"## {part}\n" in text, f"{name_of(record)} lacks {part}"
+
+
+def test_every_key_of_the_page_is_documented():
+    registry = (ROOT / "web" / "src" / "keys" / "registry.ts").read_text()
+    labels = re.findall(r"""label:\s*(?:'([^']+)'|"([^"]+)")""", registry)
+    assert len(labels) > 15
+    text = " ".join((ROOT / "docs" / "annotator.md").read_text().split())
+    assert [one for pair in labels if (one := "".join(pair)) not in text] == []

@@ -13,7 +13,7 @@ REGISTRIES = [
     "crates" + ".io",
     "docker" + ".io/",
 ]
-MACHINE_PATH = re.compile(r"(?:^|[\s\"'`=(:,])/" + r"(?:work|root|home|Users|mnt|private)/")
+MACHINE_PATH = re.compile(r"(?:^|[\s\"'`=(:,])/" + r"(?:work/(?:main|shared)|root|home/\w+|Users/\w+)\b")
 
 
 def test_no_file_names_a_package_registry_or_a_path_of_one_machine():
