@@ -63,16 +63,23 @@ def read_header(path: Path) -> Header:
         return Header(fields["run"], TrainConfig(**fields["config"]), fields["episodes"])
     except FileNotFoundError as error:
         raise ValueError(f"there is no checkpoint {path}") from error
-    except (SafetensorError, KeyError, TypeError, json.JSONDecodeError) as error:
+    except (SafetensorError, OSError, KeyError, TypeError, json.JSONDecodeError) as error:
         raise ValueError(f"{path} is no checkpoint of this version of Waypost") from error
 
 
 def load(path: Path, learner: Learner) -> None:
-    """Put a checkpoint's weights, and its training state if it has one, into a learner of the same configuration."""
+    """Put a checkpoint's weights, and its training state if it has one, into a learner of the same configuration.
+
+    Raises:
+        ValueError: its networks are others than the learner's.
+    """
     with safe_open(path, "pt") as file:
         tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118 (no mapping)
     for key, policy in learner.policies.items():
-        policy.network.load_state_dict(_below(tensors, f"policy.{key}."))
+        try:
+            policy.network.load_state_dict(_below(tensors, f"policy.{key}."))
+        except RuntimeError as error:
+            raise ValueError(f"{path} does not fit the networks that this version of Waypost builds") from error
         optimizer = _below(tensors, f"optimizer.{key}.")
         if optimizer:
             _load_optimizer(policy.optimizer, optimizer)
