@@ -5,7 +5,7 @@ has one more output, the logit of beta_g ("one can also view the subgoal termina
 subgoal policy network", appendix).
 """
 
-import math
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,7 +23,7 @@ class TrainSpec:
 
     learning_rate: float = 5e-4
     batch: int = 32
-    samples_per_round: int = 4096
+    passes: int = 1  # over the buffer in a round
     dropout: float = 0.5
     bf16: bool = True  # mixed precision where the processor has bf16 arithmetic
 
@@ -63,14 +63,12 @@ class Policy:
         return Outputs(out[:, : self.choices].numpy(), fires.numpy())
 
     def train(self, data: Dataset) -> None:
-        """Train(policy, D): `samples_per_round` rows in random order, pass after pass over the data."""
+        """Train(policy, D): so many passes over the data, each in a random order of its own."""
         if not len(data):
             return
-        passes = math.ceil(self.spec.samples_per_round / len(data))
-        order = torch.cat([torch.randperm(len(data), generator=self.rng) for _ in range(passes)])
-        order = order[: self.spec.samples_per_round]
+        orders = [torch.randperm(len(data), generator=self.rng) for _ in range(self.spec.passes)]
         self.network.train()
-        for rows in torch.split(order, self.spec.batch):
+        for rows in itertools.chain.from_iterable(torch.split(order, self.spec.batch) for order in orders):
             with torch.autocast("cpu", torch.bfloat16, enabled=self._bf16):
                 out = self.network(_channels_last(data.observations[rows]))
             loss = self._loss(out.float(), data.labels[rows])

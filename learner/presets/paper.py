@@ -8,7 +8,7 @@ from learner.rollout import Choosing
 PAPER = Preset(
     warm_start=200,
     network=NetworkSpec(channels=(32, 64), hidden=256),
-    train_hi=TrainSpec(learning_rate=5e-4, batch=32, samples_per_round=2048, dropout=0.25),
-    train_lo=TrainSpec(learning_rate=5e-4, batch=32, samples_per_round=512, dropout=0.25),
+    train_hi=TrainSpec(learning_rate=5e-4, batch=32, passes=2, dropout=0.5),
+    train_lo=TrainSpec(learning_rate=5e-4, batch=32, passes=1, dropout=0.25),
     choosing=Choosing(temperature=0.1, termination_threshold=0.9),
 )
