@@ -183,7 +183,9 @@ def main() -> None:
     parser.add_argument("--databases", nargs="+", default=["SQLite", "PostgreSQL"])
     options = parser.parse_args()
     print(machine())
-    print(f"A query is {len(json.dumps(query(1)))} bytes; {options.seconds:g} s per row; the clients share the cores.\n")
+    print(
+        f"A query is {len(json.dumps(query(1)))} bytes; {options.seconds:g} s per row; the clients share the cores.\n"
+    )
     print(HEADER)
     print("|---" * HEADER.count(" | ") + "|---|")
     with ExitStack() as stack:

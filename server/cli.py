@@ -1,8 +1,9 @@
 """The server's commands: serve, and the people and programs that may call it."""
 
 import json
+import socket
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from typing import Annotated, NoReturn, get_args
 
 import typer
@@ -62,7 +63,11 @@ def serve_app(settings: Settings, host: str, port: int) -> None:
     Raises:
         CannotServe, BadDatabase, NewerStore: with one sentence for the user.
     """
-    bound = serving.bind(host, port)
+    with closing(serving.bind(host, port)) as bound:
+        _serve(settings, host, bound)
+
+
+def _serve(settings: Settings, host: str, bound: socket.socket) -> None:
     named = () if host in {"0.0.0.0", "::"} else (host,)  # noqa: S104 - compared, not bound
     chosen = settings.model_copy(update={"hosts": (*settings.hosts, *named)})
     db = Database(chosen.database)

@@ -3,7 +3,7 @@
 import socket
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 
 import uvicorn
@@ -82,19 +82,18 @@ def background(settings: Settings, host: str = "127.0.0.1", port: int = 0) -> It
     Raises:
         CannotServe, BadDatabase, NewerStore: with one sentence for the user.
     """
-    bound = bind(host, port)
     Database(settings.database).close()  # what is wrong with it is said here, not in the thread's log
     app = create_app(settings)
     server = Server(app, "warning")
-    thread = threading.Thread(target=server.run, args=([bound],), name="waypost-serve", daemon=True)
-    thread.start()
-    try:
-        _wait_for_start(server, thread)
-        yield Served(url_of(bound), app.state.context.db)
-    finally:
-        server.should_exit = True
-        thread.join()
-        bound.close()
+    with closing(bind(host, port)) as bound:
+        thread = threading.Thread(target=server.run, args=([bound],), name="waypost-serve", daemon=True)
+        thread.start()
+        try:
+            _wait_for_start(server, thread)
+            yield Served(url_of(bound), app.state.context.db)
+        finally:
+            server.should_exit = True
+            thread.join()
 
 
 def _wait_for_start(server: Server, thread: threading.Thread) -> None:

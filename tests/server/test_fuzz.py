@@ -13,7 +13,7 @@ from server.app import create_app
 from server.settings import Settings
 from tests.server.kit import Service, query
 
-EXAMPLES = 6
+EXAMPLES = 2
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,91 @@
+"""The commands: what they print, and what they say of wrong usage."""
+
+import json
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+import httpx2
+import pytest
+from typer.testing import CliRunner
+
+from server.cli import app
+from server.database import Database
+from tests.server.kit import API
+
+
+def run(*arguments: str, status: int = 0) -> str:
+    done = CliRunner().invoke(app, list(arguments))
+    assert done.exit_code == status, done.output
+    return done.output.strip()
+
+
+def test_users_and_tokens_are_made_on_the_command_line(sqlite_url: str) -> None:
+    at = ("--database", sqlite_url)
+    made = json.loads(run("user", "add", "zoe", "--role", "learner", "--json", *at))
+    assert (made["name"], made["role"]) == ("zoe", "learner")
+    assert "zoe" in run("user", "list", *at)
+    token = json.loads(run("token", "create", "zoe", "--label", "laptop", "--json", *at))
+    assert token["token"].startswith("wp_")
+    assert run("token", "revoke", str(token["id"]), *at) == ""
+    assert re.fullmatch(r"http://h/login#wp_[\w-]{43}", run("login-link", "zoe", "--base", "http://h/", *at))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["user", "add", "x", "--role", "king"], "'king' is no role; choose one of admin, learner, annotator, viewer."),
+        (["user", "add", ""], "cannot be a user's name"),
+        (["user", "list", "--database", "nonsense"], "'nonsense' is no database URL"),
+        (
+            ["user", "list", "--database", "sqlite:////no/such/folder/x.db"],
+            "Cannot open sqlite:////no/such/folder/x.db",
+        ),
+        (["token", "create", "nobody"], "There is no user named 'nobody'"),
+        (["token", "revoke", "77"], "There is no token 77."),
+        (["login-link", "nobody"], "There is no user named 'nobody'"),
+        (["serve", "--lease", "-1"], "The setting lease_seconds is not valid"),
+        (["serve", "--database", "mysql://x/y"], "use sqlite:///FILE or postgresql://"),
+    ],
+)
+def test_wrong_usage_gets_one_sentence_and_status_2(sqlite_url: str, arguments: list[str], message: str) -> None:
+    given = arguments if "--database" in arguments else [*arguments, "--database", sqlite_url]
+    output = run(*given, status=2)
+    assert message in output
+    assert len(output.splitlines()) == 1
+
+
+def test_a_port_in_use_is_explained(sqlite_url: str) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = str(taken.getsockname()[1])
+        assert f"Cannot listen on 127.0.0.1:{port}" in run("serve", "--port", port, "--database", sqlite_url, status=2)
+
+
+def test_a_newer_store_is_explained(sqlite_url: str) -> None:
+    db = Database(sqlite_url)
+    db.write_now(lambda tx: tx.conn.exec_driver_sql("UPDATE alembic_version SET version_num = '9999'"))
+    db.close()
+    assert "does not know" in run("serve", "--port", "0", "--database", sqlite_url, status=2)
+
+
+def test_serve_prints_a_link_that_logs_an_administrator_in(sqlite_url: str) -> None:
+    command = [sys.executable, "-u", "-m", "server.cli", "serve", "--port", "0", "--database", sqlite_url]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        process.stdout.readline()
+        link = process.stdout.readline().split()[-1]
+        base, _, code = link.partition("/login#")
+        with httpx2.Client(base_url=base, timeout=30) as client:
+            reply = client.post(f"{API}/session", json={"code": code}, headers={"Origin": base})
+            assert (reply.status_code, reply.json()["role"]) == (200, "admin")
+            assert client.get(f"{API}/users").status_code == 200
+        stopping = time.monotonic()
+        process.terminate()
+        process.wait(60)
+    assert time.monotonic() - stopping < 10
+    assert process.returncode == -signal.SIGTERM
