@@ -1,11 +1,17 @@
-"""A real server process for each test."""
+"""A real server process for each test, a real browser, and a run to compare with."""
 
+import json
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import Page, sync_playwright
 
-from tests.acceptance.processes import ServerProcess, free_port
+from learner.training import embedded
+from tests.acceptance.processes import LENGTH, VALUES, Reference, ServerProcess, free_port, history, run_waypost
+from tests.browser.conftest import FLAGS, WIDE
+from tests.browser.kit import Complaints, find_chromium
 
 
 @pytest.fixture
@@ -14,3 +20,27 @@ def server(tmp_path: Path) -> Iterator[ServerProcess]:
     process.start()
     yield process
     process.stop()
+
+
+@pytest.fixture(scope="session")
+def in_process(tmp_path_factory: pytest.TempPathFactory) -> Reference:
+    """The run with the expert in the learner's process."""
+    store = tmp_path_factory.mktemp("in-process") / "store.db"
+    summary = json.loads(run_waypost("train", *VALUES, *LENGTH, "--store", str(store), "--json"))
+    with embedded(store) as connection:
+        return summary, history(connection.learner, summary["run"])
+
+
+@pytest.fixture
+def page() -> Iterator[Page]:
+    """A page of Chromium; the test fails if its console complains."""
+    complaints = Complaints()
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=find_chromium(os.environ.get("WAYPOST_CHROMIUM")), args=FLAGS
+        )
+        page = browser.new_page(viewport=WIDE)
+        complaints.listen(page)
+        yield page
+        browser.close()
+    complaints.check()

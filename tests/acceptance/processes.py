@@ -7,8 +7,11 @@ import socket
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from learner.client import Client
 from server import wire
@@ -67,6 +70,12 @@ class ServerProcess:
             self.tokens[name] = json.loads(made)["token"]
         return self.tokens[name]
 
+    def login_link(self, name: str) -> str:
+        """Return a link that logs a new annotator in."""
+        run_waypost("user", "add", name, "--role", "annotator", "--database", self.database)
+        made = run_waypost("login-link", name, "--base", self.url, "--database", self.database, "--json")
+        return str(json.loads(made)["url"])
+
     def client(self, name: str, role: wire.Role) -> Client:
         self.clients.append(Client(self.url, self.token(name, role), patience=60))
         return self.clients[-1]
@@ -83,13 +92,60 @@ def free_port() -> int:
         return int(probe.getsockname()[1])
 
 
+# A short run that asks every kind of query of Algorithm 2.
+VALUES = ("hg-dagger", "--domain", "maze", "--instances", "corners", "--preset", "demo", "--seed", "0")
+LENGTH = ("--episodes", "40", "--warm-start", "20")
+
+Reference = tuple[dict[str, Any], list[Any]]
+"""A run's summary and its history."""
+
+
+def start_learner(server: ServerProcess, values: tuple[str, ...]) -> subprocess.Popen[str]:
+    """Start `waypost train --expert queue`."""
+    where = ("--server", server.url, "--checkpoints", str(server.folder / "checkpoints"))
+    return subprocess.Popen(
+        [*WAYPOST, "train", *values, "--expert", "queue", *where, "--json"],
+        env={**os.environ, "WAYPOST_TOKEN": server.token("learner", "learner")},
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+
+
+def finished(learner: subprocess.Popen[str]) -> dict[str, Any]:
+    """Wait for a learner to end well, and return its summary."""
+    out, _ = learner.communicate(timeout=240)
+    assert learner.returncode == 0
+    summary: dict[str, Any] = json.loads(out)
+    return summary
+
+
+@contextmanager
+def bot(server: ServerProcess, name: str, *options: str) -> Iterator[None]:
+    """Run `waypost oracle` for as long as the context lasts."""
+    process = subprocess.Popen(
+        [*WAYPOST, "oracle", "--server", server.url, *options],
+        env={**os.environ, "WAYPOST_TOKEN": server.token(name, "annotator")},
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        yield
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def answers(client: Client, run: str) -> list[wire.Query]:
+    """Return every answered query of a run, in the order of the answers."""
+    queries: list[wire.Query] = []
+    cursor = 0
+    while True:
+        page = client.answers(run, cursor)
+        if not page.queries:
+            return queries
+        queries, cursor = queries + page.queries, page.cursor
+
+
 def history(client: Client, run: str) -> list[tuple[object, ...]]:
     """Return all that was asked, answered and charged in a run, in the order of its episodes."""
-    rows = []
-    after = 0
-    while page := client.answers(run, after).queries:
-        after = client.answers(run, after).cursor
-        for query in page:
-            answer = query.answer.model_dump() if query.answer else None
-            rows.append((query.ask.episode, query.ask.ordinal, query.ask.model_dump(), answer, query.units))
-    return sorted(rows, key=lambda row: row[:2])
+    ordered = sorted(answers(client, run), key=lambda query: (query.ask.episode, query.ask.ordinal))
+    return [(query.ask, query.answer, query.units) for query in ordered]

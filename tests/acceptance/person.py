@@ -1,0 +1,56 @@
+"""A person at the page, as a script: reads the question's number off the page and answers with the keyboard alone."""
+
+from collections.abc import Callable
+
+from playwright.sync_api import Page
+
+from learner.client import Client
+from learner.domains.base import find_domain
+from learner.experts.oracle import OracleExpert
+from server import wire
+
+ARROWS = {"up": "ArrowUp", "down": "ArrowDown", "left": "ArrowLeft", "right": "ArrowRight"}
+POLL_MILLISECONDS = 10
+
+
+class Person:
+    """Knows what the oracle knows, and has a keyboard."""
+
+    def __init__(self, page: Page, client: Client) -> None:
+        self._page, self._client = page, client
+        domain = find_domain("maze")
+        self._subgoals = list(domain.subgoals)
+        self._expert = OracleExpert(domain)
+        self.answered: list[wire.Kind] = []
+
+    def work_until(self, over: Callable[[], bool]) -> None:
+        """Answer whatever the page shows until there is nothing more to come."""
+        last = None
+        while not over():
+            query = self._page.evaluate("document.querySelector('#question')?.dataset.query ?? null")
+            if query is None or query == last:
+                self._page.wait_for_timeout(POLL_MILLISECONDS)
+                continue
+            self._answer(int(query))
+            last = query
+
+    def _answer(self, query: int) -> None:
+        asked = self._client.query(query)
+        for key in self._keys(self._expert(asked.ask)):
+            self._page.keyboard.press(key)
+        self.answered.append(asked.ask.kind)
+
+    def _keys(self, answer: wire.Answer) -> list[str]:
+        match answer:
+            case wire.InspectAnswer():
+                return ["p" if answer.verdict == "pass" else "f"]
+            case wire.LabelHiAnswer():
+                return [*(str(self._subgoals.index(name) + 1) for name in answer.subgoals), "Enter"]
+            case wire.LabelLoAnswer():
+                done = answer.terminations.index(True) if True in answer.terminations else None
+                arrows = [ARROWS[action] for action in answer.actions[:done] if action is not None]
+                return [*arrows, "n" if done is None else "d", "Enter"]
+            case wire.LabelFullAnswer():
+                return [*(ARROWS[action] for action in answer.actions), "Enter"]
+            case wire.HierDemoAnswer():
+                raise AssertionError("the page does not show demonstrations")
