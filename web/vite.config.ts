@@ -13,5 +13,5 @@ export default defineConfig({
   server: {
     proxy: { '/api': 'http://127.0.0.1:8000' },
   },
-  test: { environment: 'happy-dom', include: ['src/**/*.test.ts'] },
+  test: { include: ['src/**/*.test.ts'] }, // what needs a document says so in its first line
 });

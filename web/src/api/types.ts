@@ -10,6 +10,7 @@ export type AnswerOf<K extends Answer['kind']> = Extract<Answer, { kind: K }>;
 export type Assignment = Schemas['Assignment'];
 export type Costs = Schemas['Costs'];
 export type Curves = Schemas['Curves'];
+export type Lease = Schemas['Lease'];
 export type Me = Schemas['Me'];
 export type Prices = Schemas['Prices'];
 export type Query = Schemas['Query'];

@@ -1,3 +1,4 @@
+// @vitest-environment happy-dom
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { ANSWERABLE, type Vocabulary } from '../api/types';
 import { keyOf, listen, match, printed, type KeyPress } from './keys';

@@ -19,9 +19,9 @@ export function drawMaze(brush: Brush, picture: Picture): void {
   drawCells(brush, picture);
   drawTarget(brush, picture);
   for (const stretch of picture.scene.tape.stretches) drawTrail(brush, picture, stretch);
-  drawEnd(brush, picture);
   for (const label of picture.scene.labels) drawLabel(brush, picture, label);
   drawAgent(brush, picture);
+  drawEnd(brush, picture);
   for (const stretch of inFront(picture.scene)) drawMarker(brush, picture, stretch);
 }
 
@@ -109,22 +109,27 @@ function fillTriangle(brush: Brush, [x, y]: readonly [number, number], [dy, dx]:
   brush.fill();
 }
 
-/** Where it all ended: a cross in lava, a ring elsewhere. */
+/** Where it all ended: a cross in lava, a ring elsewhere; the agent itself may be there. */
 function drawEnd(brush: Brush, picture: Picture): void {
   const { maze, palette, scene } = picture;
-  const cell = cellAt(picture, scene.tape.frames.length - 1);
+  const last = scene.tape.frames.length - 1;
+  const cell = cellAt(picture, last);
   if (cell === null) return;
   const unit = unitOf(picture);
   const [x, y] = centre(picture, cell, 0);
-  const burnt = isLava(maze, cell);
+  const isHere = scene.at === last;
   brush.beginPath();
-  if (burnt) {
+  if (isLava(maze, cell)) {
+    const arm = unit * (isHere ? 0.12 : 0.22);
     for (const side of [-1, 1]) {
-      brush.moveTo(x - unit * 0.22, y - unit * 0.22 * side);
-      brush.lineTo(x + unit * 0.22, y + unit * 0.22 * side);
+      brush.moveTo(x - arm, y - arm * side);
+      brush.lineTo(x + arm, y + arm * side);
     }
-  } else brush.arc(x, y, unit * 0.22, 0, 2 * Math.PI);
-  brush.strokeStyle = burnt ? palette.map.burnt : palette.map.agent;
+    brush.strokeStyle = isHere ? palette.map['agent-edge'] : palette.map.burnt;
+  } else {
+    if (!isHere) brush.arc(x, y, unit * 0.22, 0, 2 * Math.PI);
+    brush.strokeStyle = palette.map.agent;
+  }
   brush.lineWidth = unit * 0.09;
   brush.stroke();
 }

@@ -1,10 +1,9 @@
 import { api, unwrap } from '../api/client';
-import { ANSWERABLE, type Answer, type Assignment, type Me, type Receipt } from '../api/types';
+import { ANSWERABLE, type Answer, type Assignment, type Lease, type Me, type Receipt } from '../api/types';
 
-/** What the work view asks of the server. */
+/** What the work view asks of the server, besides taking answers. */
 export interface Desk {
-  lease(wait: number, signal: AbortSignal): Promise<Assignment | null>;
-  answer(letter: Pick<Letter, 'assignment' | 'token' | 'answer' | 'key'>, next: boolean): Promise<Receipt>;
+  lease(wish: Lease, signal: AbortSignal): Promise<Assignment | null>;
   renew(held: Held): Promise<unknown>;
   release(held: Held, reason: string, skip: boolean): Promise<unknown>;
   retract(held: Held): Promise<Assignment>;
@@ -24,36 +23,39 @@ export interface Letter extends Held {
   readonly attempts: number;
 }
 
-/** The server holds an answer's reply so long for the learner's next query. */
-const NEXT_WAIT_SECONDS = 0.25;
+/** Stores an answer; with `next`, the receipt brings the next query. */
+export type SendAnswer = (letter: Letter, next: Lease | null) => Promise<Receipt>;
 
-export function restDesk(run: string | null): Desk {
-  const wish = (wait: number) => ({ wait, kinds: [...ANSWERABLE], run, defer: 0 });
-  const path = (held: Held) => ({ path: { assignment: held.assignment } });
-  return {
-    async lease(wait, signal) {
-      const body = wish(wait);
-      return (await unwrap(api.POST('/api/v1/assignments', { body, signal }))) ?? null;
-    },
-    answer(letter, next) {
-      const { token, answer, key } = letter;
-      const params = { ...path(letter), header: { 'Idempotency-Key': key } };
-      const body = { token, answer, next: next ? wish(NEXT_WAIT_SECONDS) : null };
-      return unwrap(api.POST('/api/v1/assignments/{assignment}/answer', { params, body }));
-    },
-    renew(held) {
-      const body = { token: held.token };
-      return unwrap(api.POST('/api/v1/assignments/{assignment}/renew', { params: path(held), body }));
-    },
-    release(held, reason, skip) {
-      const body = { token: held.token, reason, skip };
-      const options = { params: path(held), body, keepalive: true };
-      return unwrap(api.POST('/api/v1/assignments/{assignment}/release', options));
-    },
-    retract(held) {
-      const body = { token: held.token };
-      return unwrap(api.POST('/api/v1/assignments/{assignment}/retract', { params: path(held), body }));
-    },
-    me: () => unwrap(api.GET('/api/v1/me')),
-  };
+export function wish(run: string | null, wait: number): Lease {
+  return { wait, kinds: [...ANSWERABLE], run, defer: 0 };
 }
+
+const path = (held: Held) => ({ path: { assignment: held.assignment } });
+
+export const restDesk: Desk = {
+  async lease(body, signal) {
+    return (await unwrap(api.POST('/api/v1/assignments', { body, signal }))) ?? null;
+  },
+  renew(held) {
+    const body = { token: held.token };
+    return unwrap(api.POST('/api/v1/assignments/{assignment}/renew', { params: path(held), body }));
+  },
+  release(held, reason, skip) {
+    const body = { token: held.token, reason, skip };
+    const options = { params: path(held), body, keepalive: true }; // also while the page closes
+    return unwrap(api.POST('/api/v1/assignments/{assignment}/release', options));
+  },
+  retract(held) {
+    const body = { token: held.token };
+    return unwrap(api.POST('/api/v1/assignments/{assignment}/retract', { params: path(held), body }));
+  },
+  me: () => unwrap(api.GET('/api/v1/me')),
+};
+
+export const sendAnswer: SendAnswer = (letter, next) => {
+  const { token, answer, key } = letter;
+  const params = { ...path(letter), header: { 'Idempotency-Key': key } };
+  return unwrap(
+    api.POST('/api/v1/assignments/{assignment}/answer', { params, body: { token, answer, next } }),
+  );
+};

@@ -1,7 +1,8 @@
+// @vitest-environment happy-dom
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Refused, Unreachable } from '../api/client';
-import type { Receipt } from '../api/types';
-import type { Desk, Letter } from './desk';
+import type { Lease, Receipt } from '../api/types';
+import { wish, type Letter, type SendAnswer } from './desk';
 import { Mailer } from './mailer';
 import { add, attempted, delay, load, save, without, type Outbox } from './outbox';
 
@@ -41,11 +42,15 @@ describe('the outbox', () => {
 });
 
 describe('the mailer', () => {
-  const answer = vi.fn<Desk['answer']>();
-  const desk = { answer } as unknown as Desk;
+  const answer = vi.fn<SendAnswer>();
+  const next: Lease = wish(null, 0);
+  const listener = { stored: vi.fn(), refused: vi.fn() };
   let outbox: Outbox = [];
-  const events = { changed: (now: Outbox) => (outbox = now), stored: vi.fn(), refused: vi.fn() };
-  const mailer = () => new Mailer(desk, sessionStorage, events);
+  const newMailer = (): Mailer => {
+    const mailer = new Mailer(answer, sessionStorage, (now) => (outbox = now));
+    mailer.listen(listener);
+    return mailer;
+  };
 
   beforeEach(() => {
     vi.useFakeTimers();
@@ -56,8 +61,8 @@ describe('the mailer', () => {
 
   it('asks for the next query with the answer, and lets go of it with the receipt', async () => {
     answer.mockResolvedValue(receipt);
-    expect(await mailer().send(letter(1))).toBe(receipt);
-    expect(answer).toHaveBeenCalledWith(letter(1), true);
+    expect(await newMailer().send(letter(1), next)).toBe(receipt);
+    expect(answer).toHaveBeenCalledWith(letter(1), next);
     expect(outbox).toEqual([]);
     expect(load(sessionStorage)).toEqual([]);
   });
@@ -67,7 +72,7 @@ describe('the mailer', () => {
       .mockRejectedValueOnce(new Unreachable())
       .mockRejectedValueOnce(new Unreachable())
       .mockResolvedValue(receipt);
-    expect(await mailer().send(letter(1))).toBeNull();
+    expect(await newMailer().send(letter(1), next)).toBeNull();
     expect(load(sessionStorage)).toHaveLength(1);
     await vi.advanceTimersByTimeAsync(500);
     expect(outbox).toHaveLength(1);
@@ -78,12 +83,12 @@ describe('the mailer', () => {
 
   it('sends what an earlier page left behind, and takes up the query that came with its receipt', async () => {
     save(sessionStorage, [letter(1), letter(2)]);
-    const next = { id: 9 } as unknown as NonNullable<Receipt['next']>;
-    answer.mockResolvedValueOnce(receipt).mockResolvedValueOnce({ ...receipt, next });
-    expect(await mailer().flush(true)).toBe(next);
+    const leased = { id: 9 } as unknown as NonNullable<Receipt['next']>;
+    answer.mockResolvedValueOnce(receipt).mockResolvedValueOnce({ ...receipt, next: leased });
+    expect(await newMailer().flush(next)).toBe(leased);
     expect(answer.mock.calls.map(([sent, wanted]) => [sent.assignment, wanted])).toEqual([
-      [1, false],
-      [2, true],
+      [1, null],
+      [2, next],
     ]);
     expect(outbox).toEqual([]);
   });
@@ -91,7 +96,7 @@ describe('the mailer', () => {
   it('stops at the first that cannot be sent, so that the order stays', async () => {
     save(sessionStorage, [letter(1), letter(2)]);
     answer.mockRejectedValue(new Unreachable());
-    expect(await mailer().flush(true)).toBeNull();
+    expect(await newMailer().flush(next)).toBeNull();
     expect(answer).toHaveBeenCalledTimes(1);
     expect(outbox).toHaveLength(2);
   });
@@ -99,15 +104,15 @@ describe('the mailer', () => {
   it('says so when an answer is refused, and does not send it again', async () => {
     const late = new Refused(409, { type: '/problems/lease-expired', detail: 'Too late.' });
     answer.mockRejectedValue(late);
-    expect(await mailer().send(letter(1))).toBeNull();
-    expect(events.refused).toHaveBeenCalledWith(letter(1), late);
+    expect(await newMailer().send(letter(1), next)).toBeNull();
+    expect(listener.refused).toHaveBeenCalledWith(late);
     expect(outbox).toEqual([]);
   });
 
   it('keeps an answer while nobody is signed in', async () => {
     answer.mockRejectedValue(new Refused(401, undefined));
-    await mailer().send(letter(1));
+    await newMailer().send(letter(1), next);
     expect(outbox).toHaveLength(1);
-    expect(events.refused).not.toHaveBeenCalled();
+    expect(listener.refused).not.toHaveBeenCalled();
   });
 });

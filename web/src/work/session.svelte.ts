@@ -1,8 +1,8 @@
 import { isAborted, Refused, Unreachable, wordsOf } from '../api/client';
 import type { Answer, Assignment, Me } from '../api/types';
-import type { Desk, Held, Letter } from './desk';
+import { wish, type Desk, type Held, type Letter } from './desk';
 import { beat, pause, visible } from './heartbeat';
-import { Mailer } from './mailer';
+import type { Mailer } from './mailer';
 import { delay } from './outbox';
 
 export type Phase = 'loading' | 'waiting' | 'task' | 'sending' | 'offline' | 'signed-out' | 'refused';
@@ -13,6 +13,8 @@ export interface Notice {
 }
 
 const POLL_SECONDS = 20;
+/** The server holds a receipt back so long for the learner's next query. */
+const NEXT_SECONDS = 0.25;
 const UNDO_DEPTH = 10;
 const ME_EVERY_MS = 5_000;
 
@@ -22,11 +24,12 @@ export class WorkSession {
   assignment: Assignment | null = $state.raw(null);
   shown = $state(0); // how many queries have been put on the screen
   notice: Notice | null = $state.raw(null);
-  unsaved = $state(0);
   me: Me | null = $state.raw(null);
 
   readonly #desk: Desk;
   readonly #mailer: Mailer;
+  readonly #run: string | null; // only this run's queries
+  readonly #stopListening: () => void;
   #lookup = new AbortController();
   #stopBeating = (): void => undefined;
   #sending: Promise<unknown> = Promise.resolve();
@@ -34,12 +37,13 @@ export class WorkSession {
   #stopped = false;
   #meAt = 0;
 
-  constructor(desk: Desk, storage: Storage) {
+  constructor(desk: Desk, mailer: Mailer, run: string | null) {
     this.#desk = desk;
-    this.#mailer = new Mailer(desk, storage, {
-      changed: (outbox) => (this.unsaved = outbox.length),
+    this.#mailer = mailer;
+    this.#run = run;
+    this.#stopListening = mailer.listen({
       stored: () => this.#count(),
-      refused: (_, reason) => this.#warn(refusalWords(reason)),
+      refused: (reason) => this.#warn(refusalWords(reason)),
     });
   }
 
@@ -48,10 +52,10 @@ export class WorkSession {
     void this.#lookForWork();
   }
 
-  /** Give back what is on the screen and stop asking. What is unsaved goes on being sent after a reload. */
+  /** Give back what is on the screen and stop asking. What is unsaved goes on being sent. */
   stop(): void {
     this.#stopped = true;
-    this.#mailer.stop();
+    this.#stopListening();
     this.#setAside();
   }
 
@@ -112,7 +116,7 @@ export class WorkSession {
   }
 
   async #send(letter: Letter): Promise<void> {
-    const receipt = await this.#mailer.send(letter);
+    const receipt = await this.#mailer.send(letter, wish(this.#run, NEXT_SECONDS));
     if (receipt !== null) this.#sent = [...this.#sent, letter].slice(-UNDO_DEPTH);
     this.#forget();
     const next = receipt?.next ?? null;
@@ -128,7 +132,9 @@ export class WorkSession {
     while (!signal.aborted && !this.#stopped) {
       try {
         await visible(signal);
-        const found = (await this.#mailer.flush(true)) ?? (await this.#desk.lease(wait, signal));
+        const found =
+          (await this.#mailer.flush(wish(this.#run, 0))) ??
+          (await this.#desk.lease(wish(this.#run, wait), signal));
         if (found !== null) return this.#show(found);
         [attempts, wait] = [0, POLL_SECONDS];
         this.phase = 'waiting';
