@@ -1,4 +1,5 @@
 import re
+import subprocess
 
 import pytest
 
@@ -26,6 +27,13 @@ def test_no_file_names_a_package_registry_or_a_path_of_one_machine():
         at_fault += [f"{name_of(path)}: {host}" for host in REGISTRIES if host in text]
         at_fault += [f"{name_of(path)}: {found[0].strip()}" for found in MACHINE_PATH.finditer(text)]
     assert at_fault == []
+
+
+def test_no_source_file_is_ignored_by_git():
+    folders = ["server", "learner", "web/src", "web/public", "tests", "docs", "bench", "scripts"]
+    ask = ["git", "ls-files", "--others", "--ignored", "--exclude-standard", *folders]
+    listed = subprocess.run(ask, cwd=ROOT, capture_output=True, text=True, check=False).stdout.split()
+    assert [name for name in listed if "__pycache__" not in name and not name.startswith("server/static/")] == []
 
 
 @pytest.mark.parametrize(
