@@ -96,11 +96,13 @@ class Learner(threading.Thread):
         self._asked += BATCH
 
     def run(self) -> None:
+        """Ask more whenever a batch was answered."""
         while not self._stopping.wait(0.5):
             if self._client.get(f"/runs/{self.run_id}").json()["open_queries"] < BACKLOG - BATCH:
                 self._ask()
 
     def stop(self) -> None:
+        """End the run, so that the next row finds an empty queue."""
         self._stopping.set()
         self.join()
         self._client.patch(f"/runs/{self.run_id}", json={"state": "finished"})
@@ -173,7 +175,8 @@ def machine() -> str:
     lines = cpus.read_text().splitlines() if cpus.exists() else []
     model = next((line.partition(": ")[2] for line in lines if line.startswith("model name")), platform.processor())
     load = ", ".join(f"{one:.1f}" for one in os.getloadavg())
-    return f"{model}, {os.cpu_count()} cores, load {load}, Python {platform.python_version()}, SQLite {sqlite3.sqlite_version}"
+    python = platform.python_version()
+    return f"{model}, {os.cpu_count()} cores, load {load}, Python {python}, SQLite {sqlite3.sqlite_version}"
 
 
 def main() -> None:

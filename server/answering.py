@@ -7,7 +7,7 @@ is therefore part of the outcome rather than an exception, which would undo the 
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Row, insert, select, update
+from sqlalchemy import Row, bindparam, insert, select, update
 
 from server import canonical, errors, events, kinds, money, queries, queue, runs, wire
 from server.database import Tx
@@ -54,11 +54,26 @@ class Case:
     digest: str
 
 
+_LOCK_QUERY = select(query_table).where(query_table.c.id == bindparam("query")).with_for_update()
+_GIVEN = select(answers).where(answers.c.assignment_id == bindparam("assignment"))
+_INSERT = insert(answers).returning(answers)
+_END = (
+    update(assignments)
+    .where(assignments.c.id == bindparam("assignment"))
+    .values(state="answered", ended_at=bindparam("now"))
+)
+_CLOSE = (
+    update(query_table)
+    .where(query_table.c.id == bindparam("query"))
+    .values(state="answered", answer_id=bindparam("answer"))
+)
+
+
 def answer(tx: Tx, post: Post, wish: queue.Wish | None) -> Outcome:
     """Take an answer, and lease the annotator's next query if there is one now."""
     case = _open(tx, post)
     _refuse_reused_key(tx, post, case)
-    earlier = tx.conn.execute(select(answers).where(answers.c.assignment_id == post.assignment)).one_or_none()
+    earlier = tx.conn.execute(_GIVEN, {"assignment": post.assignment}).one_or_none()
     if earlier is not None:
         return _again(tx, case, earlier, wish)
     words = kinds.Words.of(wire.Vocabulary.model_validate_json(case.run.vocabulary))
@@ -73,10 +88,11 @@ def answer(tx: Tx, post: Post, wish: queue.Wish | None) -> Outcome:
 
 
 def _open(tx: Tx, post: Post) -> Case:
-    run = runs.lock(tx, queue.find(tx, post.assignment, post.user, post.token).run)
     held = queue.find(tx, post.assignment, post.user, post.token)
-    query = tx.conn.execute(select(query_table).where(query_table.c.id == held.query).with_for_update()).one()
-    held = queue.find(tx, post.assignment, post.user, post.token)
+    run = runs.lock(tx, held.run)
+    query = tx.conn.execute(_LOCK_QUERY, {"query": held.query}).one()
+    if not tx.one_writer:
+        held = queue.find(tx, post.assignment, post.user, post.token)
     text = canonical.text(post.answer.model_dump(mode="json"))
     return Case(held, run, query, queries.ASK.validate_json(query.ask), text, canonical.digest(text))
 
@@ -110,12 +126,8 @@ def _accept(tx: Tx, post: Post, case: Case, wish: queue.Wish | None) -> wire.Rec
     stored = _store(tx, post, case, case.query.revision, cost)
     entry = Entry(case.run.id, case.query.id, stored.id, case.query.kind, case.query.episode, cost, stored.seconds)
     money.charge(tx, entry, case.query.reserve)
-    tx.conn.execute(
-        update(assignments).where(assignments.c.id == case.held.id).values(state="answered", ended_at=tx.now)
-    )
-    tx.conn.execute(
-        update(query_table).where(query_table.c.id == case.query.id).values(state="answered", answer_id=stored.id)
-    )
+    tx.conn.execute(_END, {"assignment": case.held.id, "now": tx.now})
+    tx.conn.execute(_CLOSE, {"query": case.query.id, "answer": stored.id})
     data = {
         "query": case.query.id,
         "answer": stored.id,
@@ -129,23 +141,20 @@ def _accept(tx: Tx, post: Post, case: Case, wish: queue.Wish | None) -> wire.Rec
 
 
 def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> Row[Any]:
-    return tx.conn.execute(
-        insert(answers)
-        .values(
-            run_id=case.run.id,
-            query_id=case.query.id,
-            assignment_id=post.assignment,
-            user_id=post.user,
-            content=case.text,
-            digest=case.digest,
-            idempotency_key=post.key,
-            revision=revision,
-            units=cost.units,
-            seconds=max(tx.now - case.held.leased_at, 0.0),
-            created_at=tx.now,
-        )
-        .returning(answers)
-    ).one()
+    row = {
+        "run_id": case.run.id,
+        "query_id": case.query.id,
+        "assignment_id": post.assignment,
+        "user_id": post.user,
+        "content": case.text,
+        "digest": case.digest,
+        "idempotency_key": post.key,
+        "revision": revision,
+        "units": cost.units,
+        "seconds": max(tx.now - case.held.leased_at, 0.0),
+        "created_at": tx.now,
+    }
+    return tx.conn.execute(_INSERT, row).one()
 
 
 def _receipt(stored: Row[Any], following: wire.Assignment | None) -> wire.Receipt:
@@ -162,8 +171,8 @@ def retract(tx: Tx, assignment: int, user: int, token: str, settings: Settings) 
     """Take an answer back and lease its query to the same annotator again; what it cost is refunded."""
     held = queue.find(tx, assignment, user, token)
     run = runs.lock(tx, held.run)
-    query = tx.conn.execute(select(query_table).where(query_table.c.id == held.query).with_for_update()).one()
-    given = tx.conn.execute(select(answers).where(answers.c.assignment_id == assignment)).one_or_none()
+    query = tx.conn.execute(_LOCK_QUERY, {"query": held.query}).one()
+    given = tx.conn.execute(_GIVEN, {"assignment": assignment}).one_or_none()
     if given is None or given.revision is None:
         raise errors.LeaseEnded("This assignment has no answer that counts.")
     if query.answer_id != given.id:

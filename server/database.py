@@ -61,6 +61,11 @@ class Tx:
             self._now = float(self.conn.execute(_NOW).scalar_one())
         return self._now
 
+    @property
+    def one_writer(self) -> bool:
+        """Whether units of work run one after the other, so that nothing needs a lock (SQLite)."""
+        return self.conn.dialect.name == "sqlite"
+
     def wake(self, *topics: str) -> None:
         """Have whoever waits on these topics look again, once this is committed."""
         self.topics.update(topics)

@@ -10,7 +10,7 @@ from server.tables import episodes
 
 
 def report(tx: Tx, run: str, results: Sequence[wire.EpisodeResult]) -> wire.Run:
-    """Store results; the same result again changes nothing.
+    """Store results; the same result again changes nothing, nor does one that took another time.
 
     Raises:
         DifferentContent: if an episode was reported otherwise.
@@ -21,27 +21,27 @@ def report(tx: Tx, run: str, results: Sequence[wire.EpisodeResult]) -> wire.Run:
     stored = select(episodes.c.episode, episodes.c.result).where(
         episodes.c.run_id == run, episodes.c.episode.in_(numbers)
     )
-    known = {found.episode: found.result for found in tx.conn.execute(stored)}
+    known = {found.episode: wire.EpisodeResult.model_validate_json(found.result) for found in tx.conn.execute(stored)}
     for result in results:
-        text = canonical.text(result.model_dump(mode="json"))
-        if known.get(result.episode, text) != text:
-            raise errors.DifferentContent(f"Episode {result.episode} was reported before, with another result.")
         if result.episode in known:
+            # A learner that was killed goes through its last episodes again, in another time.
+            if known[result.episode].model_copy(update={"seconds": result.seconds}) != result:
+                raise errors.DifferentContent(f"Episode {result.episode} was reported before, with another result.")
             continue
         if row.state == "finished":
             raise errors.RunFinished("The run is finished; it reports nothing more.")
-        known[result.episode] = text
-        _insert(tx, run, result, text)
+        known[result.episode] = result
+        _insert(tx, run, result)
     return runs.view(tx, run)
 
 
-def _insert(tx: Tx, run: str, result: wire.EpisodeResult, text: str) -> None:
+def _insert(tx: Tx, run: str, result: wire.EpisodeResult) -> None:
     tx.conn.execute(
         insert(episodes).values(
             run_id=run,
             episode=result.episode,
             test_success=result.test_success,
-            result=text,
+            result=canonical.text(result.model_dump(mode="json")),
             created_at=tx.now,
         )
     )

@@ -17,6 +17,8 @@ from server.tables import events
 PING_SECONDS = 15.0
 PAGE = 500
 
+_INSERT = insert(events)
+
 
 def topic(run: str) -> str:
     """Return what a new event of a run wakes."""
@@ -25,7 +27,8 @@ def topic(run: str) -> str:
 
 def add(tx: Tx, run: str, event: str, data: Mapping[str, Any]) -> None:
     """Record a change. The caller holds the run's row, so ids grow in the order of the commits."""
-    tx.conn.execute(insert(events).values(run_id=run, event=event, data=json.dumps(data), created_at=tx.now))
+    row = {"run_id": run, "event": event, "data": json.dumps(data), "created_at": tx.now}
+    tx.conn.execute(_INSERT, row)
     tx.wake(topic(run))
 
 

@@ -1,6 +1,7 @@
 """Wake-ups: whoever waits for a change is told the moment it is committed."""
 
 import asyncio
+from weakref import WeakValueDictionary
 
 from server.writer import Topics
 
@@ -12,7 +13,8 @@ class Hub:
 
     def __init__(self) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None
-        self._events: dict[str, asyncio.Event] = {}
+        # Weak: a topic lives as long as somebody waits on it.
+        self._events: WeakValueDictionary[str, asyncio.Event] = WeakValueDictionary()
         self.closed = False
 
     def open(self) -> None:
@@ -22,7 +24,10 @@ class Hub:
 
     def watch(self, topic: str) -> asyncio.Event:
         """Return what the next change of a topic sets. Take it before looking, so that no change is missed."""
-        return self._events.setdefault(topic, asyncio.Event())
+        changed = self._events.get(topic)
+        if changed is None:
+            changed = self._events[topic] = asyncio.Event()
+        return changed
 
     def committed(self, topics: Topics) -> None:
         """Wake the waiters of these topics; called from the writer's thread."""

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from sqlalchemy import insert, update
+from sqlalchemy import bindparam, insert, update
 
 from server import errors
 from server.database import Tx
@@ -46,6 +46,14 @@ class Entry:
     episode: int
     cost: Cost
     seconds: float
+
+
+_INSERT = insert(ledger)
+_CHANGE = (
+    update(runs)
+    .where(runs.c.id == bindparam("run"))
+    .values(spent=runs.c.spent + bindparam("more_spent"), reserved=runs.c.reserved + bindparam("more_reserved"))
+)
 
 
 def to_micro(units: float) -> int:
@@ -96,23 +104,20 @@ def refund(tx: Tx, entry: Entry, account: Account, reserved: int) -> None:
 
 
 def _write(tx: Tx, kind: str, entry: Entry, sign: int) -> None:
-    tx.conn.execute(
-        insert(ledger).values(
-            run_id=entry.run,
-            query_id=entry.query,
-            answer_id=entry.answer,
-            entry=kind,
-            kind=entry.kind,
-            episode=entry.episode,
-            units=sign * entry.cost.units,
-            lo_units=sign * entry.cost.lo,
-            seconds=sign * entry.seconds,
-            created_at=tx.now,
-        )
-    )
+    row = {
+        "run_id": entry.run,
+        "query_id": entry.query,
+        "answer_id": entry.answer,
+        "entry": kind,
+        "kind": entry.kind,
+        "episode": entry.episode,
+        "units": sign * entry.cost.units,
+        "lo_units": sign * entry.cost.lo,
+        "seconds": sign * entry.seconds,
+        "created_at": tx.now,
+    }
+    tx.conn.execute(_INSERT, row)
 
 
 def _change(tx: Tx, run: str, spent: int, reserved: int) -> None:
-    tx.conn.execute(
-        update(runs).where(runs.c.id == run).values(spent=runs.c.spent + spent, reserved=runs.c.reserved + reserved)
-    )
+    tx.conn.execute(_CHANGE, {"run": run, "more_spent": spent, "more_reserved": reserved})

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from sqlalchemy import and_, exists, false, or_, select
+from sqlalchemy import and_, bindparam, exists, false, or_, select
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.sql.elements import ColumnElement
 
@@ -13,11 +13,13 @@ from server.tables import IS_LIVE, assignments, presence, queries, skips
 
 REFRESH_SECONDS = 3.0
 
+_KNOWN = select(presence).where(presence.c.user_id == bindparam("user"))
+
 
 def note(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None) -> None:
     """Note that an annotator asks for work; a waiting one is noted every few seconds only."""
     words = None if kinds is None else ",".join(sorted(kinds))
-    known = tx.conn.execute(select(presence).where(presence.c.user_id == user)).one_or_none()
+    known = tx.conn.execute(_KNOWN, {"user": user}).one_or_none()
     if known and (known.run_id, known.kinds) == (run, words) and known.asked_at > tx.now - REFRESH_SECONDS:
         return
     upsert = sqlite.insert if tx.conn.dialect.name == "sqlite" else postgresql.insert

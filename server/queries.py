@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import Path
 from pydantic import TypeAdapter
-from sqlalchemy import Row, Select, and_, func, insert, select, tuple_, update
+from sqlalchemy import Row, Select, and_, bindparam, func, insert, select, tuple_, update
 
 from server import canonical, errors, events, kinds, live, money, runs, wire
 from server.database import Tx
@@ -36,6 +36,10 @@ QUERIES: Select[Any] = (
     .outerjoin(assignments, and_(assignments.c.query_id == queries.c.id, IS_LIVE))
     .outerjoin(_holder, _holder.c.id == assignments.c.user_id)
 )
+
+
+_VIEW = QUERIES.where(queries.c.id == bindparam("query"))
+_INSERT = insert(queries).returning(queries.c.id)
 
 
 @dataclass(frozen=True)
@@ -94,7 +98,7 @@ def of_row(row: Row[Any]) -> wire.Query:
 
 def view(tx: Tx, query: int) -> wire.Query:
     """Return a query."""
-    row = tx.conn.execute(QUERIES.where(queries.c.id == query)).one_or_none()
+    row = tx.conn.execute(_VIEW, {"query": query}).one_or_none()
     if row is None:
         raise errors.NotFound(f"There is no query {query}.")
     return of_row(row)
@@ -189,27 +193,24 @@ def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Cont
 
 def _insert(tx: Tx, run: str, content: Content, priority: int, reserve: int) -> int:
     one = content.ask
-    query = tx.conn.execute(
-        insert(queries)
-        .values(
-            run_id=run,
-            episode=one.episode,
-            ordinal=one.ordinal,
-            kind=one.kind,
-            state="open",
-            priority=priority,
-            ask=content.text,
-            digest=content.digest,
-            reserve=reserve,
-            revision=0,
-            used=False,
-            created_at=tx.now,
-        )
-        .returning(queries.c.id)
-    ).scalar_one()
+    row = {
+        "run_id": run,
+        "episode": one.episode,
+        "ordinal": one.ordinal,
+        "kind": one.kind,
+        "state": "open",
+        "priority": priority,
+        "ask": content.text,
+        "digest": content.digest,
+        "reserve": reserve,
+        "revision": 0,
+        "used": False,
+        "created_at": tx.now,
+    }
+    query = int(tx.conn.execute(_INSERT, row).scalar_one())
     data = {"query": query, "kind": one.kind, "episode": one.episode, "ordinal": one.ordinal}
     events.add(tx, run, "asked", data)
-    return int(query)
+    return query
 
 
 def use(tx: Tx, query: int) -> wire.Query:

@@ -1,38 +1,34 @@
-"""The queue: which query an annotator gets next, and the life of a lease."""
+"""The queue: the life of a lease, from the moment a query is handed out until it ends by itself or otherwise."""
 
 import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from sqlalchemy import Select, exists, insert, not_, or_, select, update
+from sqlalchemy import bindparam, insert, select, update
 from sqlalchemy.sql.elements import ColumnElement
 
-from server import errors, live, presence, queries, runs, wire
+from server import choosing, errors, live, presence, queries, runs, wire
+from server.choosing import Taker
 from server.database import Tx
 from server.settings import Settings
-from server.tables import IS_LIVE, IS_OPEN, answers, assignments, skips
+from server.tables import IS_LIVE, assignments, skips
 from server.tables import queries as query_table
-from server.tables import runs as run_table
 
 
 @dataclass(frozen=True)
 class Wish:
     """What an annotator would take, and on which terms it is leased."""
 
-    user: int
-    kinds: tuple[wire.Kind, ...] | None
-    run: str | None
-    defer: float
+    taker: Taker
     lease_seconds: float
-    presence_seconds: float
     after: int | None = None
 
     @classmethod
     def of(cls, lease: wire.Lease, user: int, settings: Settings, after: int | None = None) -> "Wish":
         """Return the wish a message states."""
-        kinds = None if lease.kinds is None else tuple(lease.kinds)
-        return cls(user, kinds, lease.run, lease.defer, settings.lease_seconds, settings.presence_seconds, after)
+        kinds = None if lease.kinds is None else tuple(sorted(set(lease.kinds)))
+        taker = Taker(user, kinds, lease.run, lease.defer, settings.presence_seconds)
+        return cls(taker, settings.lease_seconds, after)
 
 
 @dataclass(frozen=True)
@@ -48,105 +44,56 @@ class Held:
     expires_at: float
 
 
+_LEASED = update(query_table).where(query_table.c.id == bindparam("query")).values(state="leased")
+_GRANT = insert(assignments).returning(assignments.c.id)
+_DUE = (
+    select(query_table.c.id)
+    .join(assignments, assignments.c.query_id == query_table.c.id)
+    .where(IS_LIVE, assignments.c.expires_at <= bindparam("now"))
+    .with_for_update(skip_locked=True, of=query_table)
+)
+_FIND = (
+    select(assignments, query_table.c.run_id)
+    .join(query_table, query_table.c.id == assignments.c.query_id)
+    .where(assignments.c.id == bindparam("assignment"))
+)
+
+
 def lease(tx: Tx, wish: Wish) -> wire.Assignment | None:
-    """Lease the next query to an annotator: by priority, then the episode it last answered, then age."""
+    """Lease the next query to an annotator, if there is one."""
+    taker = wish.taker
     expire(tx)
-    if wish.run is not None:
-        runs.find(tx, wish.run)
-    if wish.defer == 0:
-        presence.note(tx, wish.user, wish.run, wish.kinds)
-    query = _take(tx, wish)
+    if taker.run is not None:
+        runs.find(tx, taker.run)
+    if taker.defer == 0:
+        presence.note(tx, taker.user, taker.run, taker.kinds)
+    query = choosing.take(tx, taker)
     if query is None:
         return None
-    assignment = grant(tx, query, wish.user, wish.lease_seconds, deferring=wish.defer > 0, after=wish.after)
-    return view(tx, assignment)
+    return view(tx, grant(tx, query, taker.user, wish.lease_seconds, deferring=taker.defer > 0, after=wish.after))
 
 
 def grant(tx: Tx, query: int, user: int, seconds: float, *, deferring: bool, after: int | None = None) -> int:
     """Give a query to an annotator; the store allows one live assignment per query."""
-    tx.conn.execute(update(query_table).where(query_table.c.id == query).values(state="leased"))
-    return int(
-        tx.conn.execute(
-            insert(assignments)
-            .values(
-                query_id=query,
-                user_id=user,
-                token=secrets.token_urlsafe(16),
-                state="live",
-                deferring=deferring,
-                after_id=after,
-                leased_at=tx.now,
-                expires_at=tx.now + seconds,
-            )
-            .returning(assignments.c.id)
-        ).scalar_one()
-    )
-
-
-def _take(tx: Tx, wish: Wish) -> int | None:
-    """Lock and return the next query: a follow-up if nothing has a higher priority, else the first."""
-    offered = _offered(tx, wish)
-    first = tx.conn.execute(offered.limit(1)).one_or_none()
-    if first is None:
-        return None
-    last = _last_answered(tx, wish.user)
-    if last is not None:
-        same = offered.where(query_table.c.run_id == last[0], query_table.c.episode == last[1])
-        follow_up = tx.conn.execute(same.where(query_table.c.priority >= first.priority).limit(1)).one_or_none()
-        first = follow_up or first
-    # On PostgreSQL others may be taking the same: lock it, or whichever is next and free.
-    locked = tx.conn.execute(
-        select(query_table.c.id).where(query_table.c.id == first.id, IS_OPEN).with_for_update(skip_locked=True)
-    ).one_or_none()
-    if locked is None:
-        locked = tx.conn.execute(offered.limit(1).with_for_update(skip_locked=True, of=query_table)).one_or_none()
-    return None if locked is None else int(locked.id)
-
-
-def _offered(tx: Tx, wish: Wish) -> Select[Any]:
-    """Return the open queries this annotator may have, best first."""
-    skipped = exists().where(skips.c.query_id == query_table.c.id, skips.c.user_id == wish.user)
-    running = exists().where(run_table.c.id == query_table.c.run_id, run_table.c.state == "running")
-    offered = (
-        select(query_table.c.id, query_table.c.priority)
-        .where(IS_OPEN, running, ~skipped)
-        .order_by(query_table.c.priority.desc(), query_table.c.id)
-    )
-    if wish.kinds is not None:
-        offered = offered.where(query_table.c.kind.in_(wish.kinds))
-    if wish.run is not None:
-        offered = offered.where(query_table.c.run_id == wish.run)
-    if wish.defer > 0:
-        others = presence.who_would_take(tx, wish.presence_seconds)
-        old = query_table.c.created_at <= tx.now - wish.defer
-        offered = offered.where(or_(old, not_(others)))
-    return offered
-
-
-def _last_answered(tx: Tx, user: int) -> tuple[str, int] | None:
-    """Return the run and episode this annotator answered last."""
-    row = tx.conn.execute(
-        select(query_table.c.run_id, query_table.c.episode)
-        .join(answers, answers.c.query_id == query_table.c.id)
-        .where(answers.c.user_id == user)
-        .order_by(answers.c.id.desc())
-        .limit(1)
-    ).one_or_none()
-    return None if row is None else (row.run_id, row.episode)
+    tx.conn.execute(_LEASED, {"query": query})
+    lease = {
+        "query_id": query,
+        "user_id": user,
+        "token": secrets.token_urlsafe(16),
+        "state": "live",
+        "deferring": deferring,
+        "after_id": after,
+        "leased_at": tx.now,
+        "expires_at": tx.now + seconds,
+    }
+    return int(tx.conn.execute(_GRANT, lease).scalar_one())
 
 
 def expire(tx: Tx) -> int:
     """End the leases whose time is up; their queries are open again. Returns how many."""
-    due = (
-        select(query_table.c.id)
-        .join(assignments, assignments.c.query_id == query_table.c.id)
-        .where(IS_LIVE, assignments.c.expires_at <= tx.now)
-        .with_for_update(skip_locked=True, of=query_table)
-    )
-    ids = tx.conn.execute(due).scalars().all()
+    ids = tx.conn.execute(_DUE, {"now": tx.now}).scalars().all()
     if ids:
-        late = [assignments.c.expires_at <= tx.now]
-        reopen(tx, ids, "expired", late)
+        reopen(tx, ids, "expired", [assignments.c.expires_at <= tx.now])
     return len(ids)
 
 
@@ -178,11 +125,7 @@ def find(tx: Tx, assignment: int, user: int, token: str) -> Held:
     Raises:
         NotFound, NotYours, WrongToken: if the caller does not hold it.
     """
-    row = tx.conn.execute(
-        select(assignments, query_table.c.run_id)
-        .join(query_table, query_table.c.id == assignments.c.query_id)
-        .where(assignments.c.id == assignment)
-    ).one_or_none()
+    row = tx.conn.execute(_FIND, {"assignment": assignment}).one_or_none()
     if row is None:
         raise errors.NotFound(f"There is no assignment {assignment}.")
     if row.user_id != user:
@@ -199,8 +142,9 @@ def hold(tx: Tx, assignment: int, user: int, token: str) -> Held:
         LeaseExpired, LeaseEnded: if the lease is over, by the database's clock.
     """
     held = find(tx, assignment, user, token)
-    tx.conn.execute(select(query_table.c.id).where(query_table.c.id == held.query).with_for_update())
-    held = find(tx, assignment, user, token)
+    if not tx.one_writer:
+        tx.conn.execute(select(query_table.c.id).where(query_table.c.id == held.query).with_for_update())
+        held = find(tx, assignment, user, token)
     refuse_ended(held, tx.now)
     return held
 
@@ -255,7 +199,7 @@ def granted_after(tx: Tx, assignment: int) -> wire.Assignment | None:
 
 def view(tx: Tx, assignment: int) -> wire.Assignment:
     """Return an assignment as its owner sees it."""
-    row = tx.conn.execute(select(assignments).where(assignments.c.id == assignment)).one()
+    row = tx.conn.execute(_FIND, {"assignment": assignment}).one()
     query = queries.view(tx, row.query_id)
     return wire.Assignment(
         id=row.id,

@@ -5,8 +5,7 @@ import re
 import secrets
 from typing import Any
 
-from sqlalchemy import Float, Row, Select, cast, func, insert, select, update
-from sqlalchemy.sql.elements import ColumnElement
+from sqlalchemy import Float, Row, Select, bindparam, cast, func, insert, select, update
 
 from server import canonical, errors, events, live, money, wire
 from server.database import Tx
@@ -71,14 +70,16 @@ def of_row(row: Row[Any]) -> wire.Run:
     )
 
 
-def _missing(run: str) -> errors.NotFound:
-    return errors.NotFound(f"There is no run {run!r}.")
+_FIND = select(runs).where(runs.c.id == bindparam("run"))
+_LOCK = _FIND.with_for_update()
+_VIEW = RUNS.where(runs.c.id == bindparam("run"))
 
 
-def _where(run: str) -> ColumnElement[bool]:
-    if _ID.fullmatch(run) is None:
-        raise _missing(run)
-    return runs.c.id == run
+def _one(tx: Tx, statement: Select[Any], run: str) -> Row[Any]:
+    row = tx.conn.execute(statement, {"run": run}).one_or_none() if _ID.fullmatch(run) else None
+    if row is None:
+        raise errors.NotFound(f"There is no run {run!r}.")
+    return row
 
 
 def find(tx: Tx, run: str) -> Row[Any]:
@@ -87,18 +88,12 @@ def find(tx: Tx, run: str) -> Row[Any]:
     Raises:
         NotFound: if there is no such run.
     """
-    row = tx.conn.execute(select(runs).where(_where(run))).one_or_none()
-    if row is None:
-        raise _missing(run)
-    return row
+    return _one(tx, _FIND, run)
 
 
 def lock(tx: Tx, run: str) -> Row[Any]:
     """Return a run's row, locked: its account, its answers and its events change one unit of work at a time."""
-    row = tx.conn.execute(select(runs).where(_where(run)).with_for_update()).one_or_none()
-    if row is None:
-        raise _missing(run)
-    return row
+    return _one(tx, _LOCK, run)
 
 
 def account(row: Row[Any]) -> Account:
@@ -108,10 +103,7 @@ def account(row: Row[Any]) -> Account:
 
 def view(tx: Tx, run: str) -> wire.Run:
     """Return a run."""
-    row = tx.conn.execute(RUNS.where(_where(run))).one_or_none()
-    if row is None:
-        raise _missing(run)
-    return of_row(row)
+    return of_row(_one(tx, _VIEW, run))
 
 
 def newest(tx: Tx, limit: int) -> wire.RunList:

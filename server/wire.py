@@ -210,7 +210,7 @@ class AnswerPage(Message):
 
 
 class Prices(Message):
-    """What one label costs, in units. The paper: Label = length of what is labeled, Inspect = 1."""
+    """What one label costs, in units, to six decimals. The paper: Label = length of what is labeled, Inspect = 1."""
 
     subgoal: Units = Field(default=1.0, description="One HI label: a subgoal at a state.")
     action: Units = Field(default=1.0, description="One LO label: an action at a state.")
@@ -242,7 +242,7 @@ class RunCreate(Message):
 
 
 class RunPatch(Message):
-    """What may change in a run; absent fields stay as they are."""
+    """What may change in a run; absent fields stay as they are, and a null budget lifts it."""
 
     name: Name | None = None
     state: RunState | None = None
@@ -280,7 +280,7 @@ class RunList(Message):
 
 
 class EpisodeResult(Message):
-    """What one episode brought. Reporting it again with the same content changes nothing."""
+    """What one episode brought. Reporting it again, the seconds aside with the same content, changes nothing."""
 
     episode: int = Field(ge=0, le=2**31 - 1)
     warm_start: bool = Field(description="Whether this was a demonstration rather than a rollout.")

@@ -3,6 +3,7 @@
 import time
 
 import pytest
+from sqlalchemy import text
 
 from server.curves import _cumulative, _first_at, trailing
 from server.database import Database
@@ -110,14 +111,25 @@ def test_a_result_that_makes_no_sense_is_refused(lite: Service, wrong: Json) -> 
 
 def filled(service: Service, run: str, n_episodes: int, per_episode: int) -> None:
     """Fill a run with answered queries, by the shortest way."""
-    ask = "INSERT INTO queries (run_id, episode, ordinal, kind, state, priority, ask, digest, reserve, revision, used, created_at) VALUES (:run, :e, :o, 'label_lo', 'open', 0, '{}', '', 0, 0, :no, 0)"
-    lease = "INSERT INTO assignments (query_id, user_id, token, state, deferring, leased_at, expires_at, ended_at) SELECT id, 1, '', 'answered', :no, 0, 0, 0 FROM queries"
-    answer = "INSERT INTO answers (run_id, query_id, assignment_id, user_id, content, digest, revision, units, seconds, created_at) SELECT :run, query_id, id, 1, '{}', '', 0, 1000000, 1, 0 FROM assignments"
-    charge = "INSERT INTO ledger (run_id, query_id, answer_id, entry, kind, episode, units, lo_units, seconds, created_at) SELECT :run, query_id, a.id, 'charge', 'label_lo', q.episode, 1000000, 1000000, 1, 0 FROM answers a JOIN queries q ON q.id = a.query_id"
+    ask = (
+        "INSERT INTO queries (run_id, episode, ordinal, kind, state, priority, ask, digest, reserve, revision, used, "
+        "created_at) VALUES (:run, :e, :o, 'label_lo', 'open', 0, '{}', '', 0, 0, :no, 0)"
+    )
+    lease = (
+        "INSERT INTO assignments (query_id, user_id, token, state, deferring, leased_at, expires_at, ended_at) "
+        "SELECT id, 1, '', 'answered', :no, 0, 0, 0 FROM queries"
+    )
+    answer = (
+        "INSERT INTO answers (run_id, query_id, assignment_id, user_id, content, digest, revision, units, seconds, "
+        "created_at) SELECT :run, query_id, id, 1, '{}', '', 0, 1000000, 1, 0 FROM assignments"
+    )
+    charge = (
+        "INSERT INTO ledger (run_id, query_id, answer_id, entry, kind, episode, units, lo_units, seconds, created_at) "
+        "SELECT :run, query_id, a.id, 'charge', 'label_lo', q.episode, 1000000, 1000000, 1, 0 "
+        "FROM answers a JOIN queries q ON q.id = a.query_id"
+    )
 
     def fill(tx: object) -> None:
-        from sqlalchemy import text
-
         rows = [{"run": run, "e": e, "o": o, "no": False} for e in range(n_episodes) for o in range(per_episode)]
         tx.conn.execute(text(ask), rows)
         for statement in (lease, answer, charge):

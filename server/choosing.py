@@ -1,0 +1,102 @@
+"""Which query an annotator gets next: by priority, then the episode it last answered, then age."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from sqlalchemy import Select, bindparam, exists, not_, or_, select
+
+from server import presence, wire
+from server.database import Tx
+from server.tables import IS_OPEN, answers, queries, runs, skips
+
+Kinds = tuple[wire.Kind, ...]
+
+
+@dataclass(frozen=True)
+class Taker:
+    """An annotator and what it would take."""
+
+    user: int
+    kinds: Kinds | None
+    run: str | None
+    defer: float
+    presence_seconds: float
+
+
+@dataclass(frozen=True)
+class Offer:
+    """The statements that find the next query among those an annotator may have."""
+
+    first: Select[Any]
+    follow_up: Select[Any]
+    unlocked: Select[Any]
+
+    @classmethod
+    def among(cls, offered: Select[Any]) -> "Offer":
+        """Return the statements over some choice of open queries, best first."""
+        last = (queries.c.run_id == bindparam("last_run"), queries.c.episode == bindparam("last_episode"))
+        return cls(
+            offered.limit(1),
+            offered.where(*last, queries.c.priority >= bindparam("priority")).limit(1),
+            offered.limit(1).with_for_update(skip_locked=True, of=queries),
+        )
+
+
+_LAST_ANSWERED = (
+    select(queries.c.run_id, queries.c.episode)
+    .join(answers, answers.c.query_id == queries.c.id)
+    .where(answers.c.user_id == bindparam("user"))
+    .order_by(answers.c.id.desc())
+    .limit(1)
+)
+_LOCK_ONE = select(queries.c.id).where(queries.c.id == bindparam("query"), IS_OPEN).with_for_update(skip_locked=True)
+
+
+def take(tx: Tx, taker: Taker) -> int | None:
+    """Lock and return the next query: a follow-up if nothing has a higher priority, else the first."""
+    offer = _offer(tx, taker)
+    known: dict[str, Any] = {"user": taker.user, "run": taker.run}
+    chosen = tx.conn.execute(offer.first, known).one_or_none()
+    if chosen is None:
+        return None
+    last = tx.conn.execute(_LAST_ANSWERED, known).one_or_none()
+    if last is not None:
+        known |= {"last_run": last.run_id, "last_episode": last.episode, "priority": chosen.priority}
+        chosen = tx.conn.execute(offer.follow_up, known).one_or_none() or chosen
+    if tx.one_writer:
+        return int(chosen.id)
+    # Others may be taking the same: lock it, or whichever is next and free.
+    locked = tx.conn.execute(_LOCK_ONE, {"query": chosen.id}).one_or_none()
+    if locked is None:
+        locked = tx.conn.execute(offer.unlocked, known).one_or_none()
+    return None if locked is None else int(locked.id)
+
+
+def _offer(tx: Tx, taker: Taker) -> Offer:
+    if taker.defer == 0:
+        return _plain_offer(taker.kinds, taker.run is not None)
+    others = presence.who_would_take(tx, taker.presence_seconds)
+    old = queries.c.created_at <= tx.now - taker.defer
+    return Offer.among(_offered(taker.kinds, taker.run is not None).where(or_(old, not_(others))))
+
+
+@lru_cache(maxsize=256)
+def _plain_offer(kinds: Kinds | None, one_run: bool) -> Offer:
+    return Offer.among(_offered(kinds, one_run))
+
+
+def _offered(kinds: Kinds | None, one_run: bool) -> Select[Any]:
+    """Return the open queries an annotator may have, best first."""
+    skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == bindparam("user"))
+    running = exists().where(runs.c.id == queries.c.run_id, runs.c.state == "running")
+    offered = (
+        select(queries.c.id, queries.c.priority)
+        .where(IS_OPEN, running, ~skipped)
+        .order_by(queries.c.priority.desc(), queries.c.id)
+    )
+    if kinds is not None:
+        offered = offered.where(queries.c.kind.in_(kinds))
+    if one_run:
+        offered = offered.where(queries.c.run_id == bindparam("run"))
+    return offered
