@@ -28,6 +28,7 @@ from learner.types import FLAT, META
 from server import wire
 
 POLL_SECONDS = 30.0
+CHECKPOINT_EVERY = 25  # episodes
 _TRAIN_ORDER, _TEST_ORDER = 2, 3  # streams of randomness, beside those of the rollouts
 
 
@@ -62,6 +63,7 @@ class Driver:
         run_id: the run, already created.
         let_answer: called after each query was asked; an expert in this process answers it there.
         on_episode: called with each episode's result.
+        checkpoint: called with the number of episodes applied whenever the run can go on from there.
         first_episode: where to go on, after a resumed checkpoint.
     """
 
@@ -75,11 +77,12 @@ class Driver:
         run_id: str,
         let_answer: Callable[[], None] = lambda: None,
         on_episode: Callable[[wire.EpisodeResult], None] = lambda _: None,
+        checkpoint: Callable[[int], None] = lambda _: None,
         first_episode: int = 0,
     ) -> None:
         self._config, self._algorithm, self._learner, self._instances = config, algorithm, learner, instances
         self._client, self._run_id = client, run_id
-        self._let_answer, self._on_episode = let_answer, on_episode
+        self._let_answer, self._on_episode, self._checkpoint = let_answer, on_episode, checkpoint
         self._test_simulator = Simulator(learner.domain)
         self._open: deque[OpenEpisode] = deque()
         self._next = self.applied = first_episode
@@ -94,13 +97,23 @@ class Driver:
             Refused: the server refused for another reason; a run that was finished by somebody, say.
         """
         while self._open or self._next < self._config.episodes:
-            while len(self._open) < self._config.in_flight and self._next < self._config.episodes:
+            while self._may_start():
                 self._start_episode(self._next)
                 self._next += 1
             if self._open[0].labels is not None:
                 self._apply(self._open.popleft())
             else:
                 self._wait()
+
+    def _may_start(self) -> bool:
+        """Return whether the next episode may begin.
+
+        No episode is open at a checkpoint: it would have been rolled out with weights that are gone when a resumed
+        run comes to it again.
+        """
+        if self._next % CHECKPOINT_EVERY == 0 and self._open:
+            return False
+        return len(self._open) < self._config.in_flight and self._next < self._config.episodes
 
     def _start_episode(self, number: int) -> None:
         """Get a new environment instance and go to the first query."""
@@ -191,6 +204,8 @@ class Driver:
         self._clock = now
         self._client.report(self._run_id, [result])
         self.applied += 1
+        if self.applied % CHECKPOINT_EVERY == 0:
+            self._checkpoint(self.applied)
         self._on_episode(result)
 
 

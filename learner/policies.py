@@ -5,7 +5,7 @@ has one more output, the logit of beta_g ("one can also view the subgoal termina
 subgoal policy network", appendix).
 """
 
-import itertools
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,7 +23,9 @@ class TrainSpec:
 
     learning_rate: float = 5e-4
     batch: int = 32
-    passes: int = 1  # over the buffer in a round
+    passes: int = 1  # over the buffer in a round,
+    least: int = 1024  # but so many rows at least: a small buffer is passed over more often,
+    most: int = 6144  # and so many at most
     dropout: float = 0.5
     bf16: bool = True  # mixed precision where the processor has bf16 arithmetic
 
@@ -63,12 +65,15 @@ class Policy:
         return Outputs(out[:, : self.choices].numpy(), fires.numpy())
 
     def train(self, data: Dataset) -> None:
-        """Train(policy, D): so many passes over the data, each in a random order of its own."""
+        """Train(policy, D): a few passes over the data, each in a random order of its own."""
         if not len(data):
             return
-        orders = [torch.randperm(len(data), generator=self.rng) for _ in range(self.spec.passes)]
+        spec = self.spec
+        n_rows = min(max(spec.passes * len(data), spec.least), spec.most)
+        passes = math.ceil(n_rows / len(data))
+        order = torch.cat([torch.randperm(len(data), generator=self.rng) for _ in range(passes)])[:n_rows]
         self.network.train()
-        for rows in itertools.chain.from_iterable(torch.split(order, self.spec.batch) for order in orders):
+        for rows in torch.split(order, spec.batch):
             with torch.autocast("cpu", torch.bfloat16, enabled=self._bf16):
                 out = self.network(_channels_last(data.observations[rows]))
             loss = self._loss(out.float(), data.labels[rows])

@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +24,6 @@ from learner.translation import vocabulary
 from server import people, wire
 from server.app import create_app
 from server.settings import Settings
-
-CHECKPOINT_EVERY = 25  # episodes
 
 
 @dataclass(frozen=True)
@@ -117,11 +116,6 @@ def train(
     def save(episodes: int, weights_only: bool) -> None:
         checkpoints.write(path, learner, checkpoints.Header(run.id, config, episodes), weights_only)
 
-    def episode_done(result: wire.EpisodeResult) -> None:
-        if (result.episode + 1) % CHECKPOINT_EVERY == 0:
-            save(result.episode + 1, weights_only=False)
-        on_episode(result)
-
     driver = Driver(
         config,
         find_algorithm(config.algorithm),
@@ -130,7 +124,8 @@ def train(
         connection.learner,
         run.id,
         _answering(connection, run.id),
-        episode_done,
+        on_episode,
+        partial(save, weights_only=False),
         first,
     )
     ended = "finished"

@@ -9,6 +9,6 @@ PAPER = Preset(
     warm_start=200,
     network=NetworkSpec(channels=(32, 64), hidden=256),
     train_hi=TrainSpec(learning_rate=5e-4, batch=32, passes=2, dropout=0.5),
-    train_lo=TrainSpec(learning_rate=5e-4, batch=32, passes=1, dropout=0.25),
+    train_lo=TrainSpec(learning_rate=5e-4, batch=32, passes=1, dropout=0.5),
     choosing=Choosing(temperature=0.1, termination_threshold=0.9),
 )
