@@ -87,11 +87,14 @@ def open_page(browser: Browser, served: Served, complaints: Complaints) -> Itera
         scheme: str = "light",
         size: dict[str, int] = WIDE,
         motion: str = "no-preference",
+        intercepted: bool = False,
     ) -> Page:
         server = at or served
         context = browser.new_context(base_url=server.url, viewport=size, color_scheme=scheme, reduced_motion=motion)
         context.set_default_timeout(10_000)
         contexts.append(context)
+        if intercepted:  # from the start: a route added later may miss the very next request
+            context.route("**/nothing", lambda route: route.abort())
         page = context.new_page()
         complaints.listen(page)
         if role is not None:

@@ -18,7 +18,7 @@ def test_an_answer_survives_an_outage(open_page: Open, learner: Learner, complai
     complaints.expect("net::ERR_")
     run = learner.create_run("outage")
     first, second = learner.ask(run, ask("inspect_full", 0), ask("inspect_full", 1, question="After the outage"))
-    page = open_page(f"/work?run={run}")
+    page = open_page(f"/work?run={run}", intercepted=True)
     wait_for_heading(page, QUESTION)
     page.route("**/api/**", lambda route: route.abort())
     page.keyboard.press("f")
@@ -41,7 +41,7 @@ def test_an_answer_whose_receipt_was_lost_counts_once(
     complaints.expect("net::ERR_")
     run = learner.create_run("lost receipt")
     [query, _] = learner.ask(run, ask("inspect_full", 0), ask("inspect_full", 1, question="The next one"))
-    page = open_page(f"/work?run={run}")
+    page = open_page(f"/work?run={run}", intercepted=True)
     wait_for_heading(page, QUESTION)
     lost = []
 
@@ -64,7 +64,7 @@ def test_an_unsaved_answer_survives_a_reload(open_page: Open, learner: Learner, 
     complaints.expect("net::ERR_")
     run = learner.create_run("reload unsaved")
     [query] = learner.ask(run, ask("inspect_full"))
-    page = open_page(f"/work?run={run}")
+    page = open_page(f"/work?run={run}", intercepted=True)
     wait_for_heading(page, QUESTION)
     asked_to_stay = []
     page.on("dialog", lambda dialog: (asked_to_stay.append(dialog.type), dialog.accept()))
