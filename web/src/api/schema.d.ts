@@ -1171,7 +1171,7 @@ export interface components {
         };
         /**
          * EpisodeResult
-         * @description What one episode brought. Reporting it again with the same content changes nothing.
+         * @description What one episode brought. Reporting it again, the seconds aside with the same content, changes nothing.
          */
         EpisodeResult: {
             /** Episode */
@@ -1416,7 +1416,7 @@ export interface components {
         };
         /**
          * Prices
-         * @description What one label costs, in units. The paper: Label = length of what is labeled, Inspect = 1.
+         * @description What one label costs, in units, to six decimals. The paper: Label = length of what is labeled, Inspect = 1.
          */
         PricesInput: {
             /**
@@ -1450,7 +1450,7 @@ export interface components {
         };
         /**
          * Prices
-         * @description What one label costs, in units. The paper: Label = length of what is labeled, Inspect = 1.
+         * @description What one label costs, in units, to six decimals. The paper: Label = length of what is labeled, Inspect = 1.
          */
         Prices: {
             /**
@@ -1698,7 +1698,7 @@ export interface components {
         };
         /**
          * RunPatch
-         * @description What may change in a run; absent fields stay as they are.
+         * @description What may change in a run; absent fields stay as they are, and a null budget lifts it.
          */
         RunPatch: {
             /** Name */
