@@ -119,6 +119,10 @@ class Client:
         response = self._send("POST", "/assignments", lease)
         return None if response.status_code == 204 else _read(wire.Assignment, response)
 
+    def assignments(self) -> list[wire.Assignment]:
+        """Return the live assignments of this user, oldest first."""
+        return self._call(wire.AssignmentList, "GET", "/assignments").assignments
+
     def answer(
         self, assignment: wire.Assignment, answer: wire.Answer, following: wire.Lease | None = None
     ) -> wire.Receipt:

@@ -61,7 +61,7 @@ class Driver:
         instances: where to train and test.
         client: the queue, as a learner.
         run_id: the run, already created.
-        let_answer: called after each query was asked; an expert in this process answers it there.
+        let_answer: called when queries may be open; an expert in this process answers them there.
         on_episode: called with each episode's result.
         checkpoint: called with the number of episodes applied whenever the run can go on from there.
         first_episode: where to go on, after a resumed checkpoint.
@@ -173,6 +173,7 @@ class Driver:
 
     def _wait(self) -> None:
         """Wait for answers, and let the episodes they belong to go on."""
+        self._let_answer()
         page = self._client.answers(self._run_id, self._cursor, wait=POLL_SECONDS)
         self._cursor = page.cursor
         answered = {query.id for query in page.queries}

@@ -182,6 +182,9 @@ def _answering(connection: Connection, run: str) -> Callable[[], None]:
     """Return what lets an expert in this process answer what has been asked."""
     if connection.annotator is None:
         return lambda: None
+    for assignment in connection.annotator.assignments():
+        if assignment.run.id == run:  # left by an expert that was killed together with its learner
+            connection.annotator.release(assignment)
     bot = Bot(connection.annotator, BotSettings(run=run))
     return lambda: bot.work(wait=0)
 

@@ -9,6 +9,8 @@ import numpy as np
 from hypothesis import assume, settings
 from hypothesis import strategies as st
 
+from learner.client import Client
+from learner.config import TrainConfig
 from learner.domains.maze.generator import maze_set
 from learner.domains.maze.maze import ROOMS, SIZE, Cell, Maze, closed_rooms, room_of, walls
 from learner.networks import NetworkSpec
@@ -19,15 +21,15 @@ from learner.rollout import Choosing
 from learner.training import Connection, RunOptions, embedded
 from learner.types import Segment, State
 
-TINY_TRAIN = TrainSpec(learning_rate=5e-3, batch=16, samples_per_round=64, dropout=0.25)
+TINY_TRAIN = TrainSpec(learning_rate=5e-3, batch=16, least=48, most=48, dropout=0.25)
 TINY = Preset(
     warm_start=3,
     network=NetworkSpec(channels=(4, 4), hidden=16),
     train_hi=TINY_TRAIN,
     train_lo=TINY_TRAIN,
-    choosing=Choosing(temperature=0.1, termination_threshold=0.9),
+    choosing=Choosing(temperature=0.5, termination_threshold=0.9),
 )
-"""A preset for runs of a second: its networks learn the corridor a little, and so still make mistakes."""
+"""A preset for runs of a second, in which policies make all kinds of mistakes."""
 
 examples = settings(deadline=None, max_examples=60)
 """How properties are tried."""
@@ -36,19 +38,13 @@ GREEDY = Choosing(temperature=0, termination_threshold=0.9)
 STEPS: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))  # up, down, left, right
 
 
-@contextmanager
-def tiny_preset() -> Iterator[None]:
-    """Make `--preset tiny` exist."""
-    PRESETS["tiny"] = TINY
-    try:
-        yield
-    finally:
-        del PRESETS["tiny"]
+PRESETS["tiny"] = TINY
 
 
 @contextmanager
 def store(path: Path) -> Iterator[tuple[Connection, RunOptions]]:
     """Connect to a store in `path`, with checkpoints beside it."""
+    path.mkdir(exist_ok=True)
     with embedded(path / "waypost.db") as connection:
         yield connection, RunOptions(checkpoints=path / "checkpoints", threads=1)
 
@@ -135,3 +131,29 @@ def mazes() -> st.SearchStrategy[Maze]:
 def picture(maze: Maze) -> list[str]:
     """The maze as rows of text, to show in a failure."""
     return ["".join("#" if maze.lava[row, column] else "." for column in range(SIZE)) for row in range(SIZE)]
+
+
+# --- runs
+
+
+def corridor(**values: Any) -> TrainConfig:
+    """A run of a few seconds."""
+    common = {"algorithm": "hg-dagger", "domain": "corridor", "preset": "tiny", "seed": 1, "episodes": 12}
+    return TrainConfig(**common | values)
+
+
+def history(client: Client, run: str) -> list[tuple[Any, ...]]:
+    """All that was asked, answered and charged in a run, by episode and ordinal."""
+    found, cursor = [], 0
+    while (page := client.answers(run, cursor)).queries:
+        cursor = page.cursor
+        found += [(q.ask.episode, q.ask.ordinal, q.ask.model_dump(), q.answer, q.units) for q in page.queries]
+    return sorted(found, key=lambda row: row[:2])
+
+
+def outcome(connection: Connection, summary: dict[str, Any]) -> tuple[Any, ...]:
+    """What must be the same in the same run: weights, costs, results and every query with its answer."""
+    client, run = connection.learner, summary["run"]
+    curves = client.curves(run)
+    results = (curves.episode, curves.test_success, curves.cost, curves.cost_by_kind)
+    return summary["weights"], summary["cost"], summary["ended"], results, history(client, run)

@@ -14,7 +14,7 @@ from learner.policies import Policy, TrainSpec
 from learner.types import META
 from tests.learner.kit import TINY
 
-SPEC = TrainSpec(learning_rate=5e-3, batch=16, samples_per_round=256, dropout=0.0)
+SPEC = TrainSpec(learning_rate=5e-3, batch=16, passes=2, least=256, most=640, dropout=0.0)
 NETWORK = NetworkSpec(channels=(4,), hidden=16)
 
 
@@ -85,7 +85,7 @@ def test_one_unlabeled_row_more_in_a_batch_only_scales_what_the_others_teach() -
     both.append([Row(np.array([1, 1], np.float32), 0, 1), Row(np.array([-5, 3], np.float32), UNLABELED)])
     gradients = []
     for some in (labeled, both):
-        trained = policy(spec=TrainSpec(batch=2, samples_per_round=len(some), dropout=0.0, bf16=False))
+        trained = policy(spec=TrainSpec(batch=2, least=1, dropout=0.0, bf16=False))
         trained.train(some)
         gradients.append([parameter.grad.clone() for parameter in trained.network.parameters()])
     for alone, beside in zip(*gradients, strict=True):
@@ -99,12 +99,12 @@ def test_an_empty_buffer_trains_nothing() -> None:
     assert all(equal(before, weights(trained)))
 
 
-def test_a_round_takes_its_number_of_samples_however_few_rows_there_are() -> None:
-    for n in (1, 100, 256, 1_000):
+def test_a_round_is_so_many_passes_over_the_buffer_within_a_least_and_a_most_number_of_rows() -> None:
+    for n_rows, n_learned in ((1, 256), (100, 256), (128, 256), (200, 400), (320, 640), (1_000, 640)):
         trained = policy()
-        trained.train(data(n))
+        trained.train(data(n_rows))
         steps = {int(state["step"]) for state in trained.optimizer.state_dict()["state"].values()}
-        assert steps == {SPEC.samples_per_round // SPEC.batch}
+        assert steps == {n_learned // SPEC.batch}
 
 
 def test_a_policy_without_a_termination_head_never_fires() -> None:
@@ -187,7 +187,7 @@ def test_observations_of_another_shape_are_refused_with_the_shapes_that_work() -
 
 
 def test_dropout_is_on_in_training_alone() -> None:
-    trained = policy(spec=TrainSpec(dropout=0.9, samples_per_round=16, batch=16))
+    trained = policy(spec=TrainSpec(least=16, dropout=0.9, batch=16))
     trained.train(data(16))
     batch = np.ones((1, 2), np.float32)
     np.testing.assert_array_equal(trained(batch).logits, trained(batch).logits)

@@ -1,0 +1,205 @@
+"""The driver: the same run whoever answers and in whatever order; what a budget, a pause and a refusal do to it."""
+
+import random
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from learner.bot import Bot, BotSettings
+from learner.client import Refused
+from learner.config import TrainConfig
+from learner.domains.corridor import CorridorDomain
+from learner.experts.oracle import OracleExpert
+from learner.training import Connection, train
+from learner.translation import vocabulary
+from server import wire
+from tests.learner.kit import corridor, outcome, store
+
+
+class OutOfOrder:
+    """Stands between a learner and its server: answers come only when the learner waits, one at a time, shuffled."""
+
+    def __init__(self, connection: Connection, seed: int) -> None:
+        assert connection.annotator is not None
+        self._client, self._annotator = connection.learner, connection.annotator
+        self._expert = OracleExpert(CorridorDomain())
+        self._rng = random.Random(seed)
+        self._held: list[wire.Assignment] = []
+        self.most_open = 0
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._client, name)
+
+    def answers(self, run: str, after: int, wait: float = 0) -> wire.AnswerPage:
+        while (assignment := self._annotator.lease(wire.Lease(run=run))) is not None:
+            self._held.append(assignment)
+        self.most_open = max(self.most_open, len(self._held))
+        chosen = self._held.pop(self._rng.randrange(len(self._held)))
+        self._annotator.answer(chosen, self._expert(chosen.query.ask))
+        return self._client.answers(run, after, wait)
+
+
+def at_once(path: Path, config: TrainConfig) -> tuple[Any, ...]:
+    """The run with every query answered the moment it is asked."""
+    with store(path) as (connection, options):
+        return outcome(connection, train(config, connection, options))
+
+
+def out_of_order(path: Path, config: TrainConfig, seed: int) -> tuple[tuple[Any, ...], int]:
+    """The run with its answers in an order of chance, and how many queries were open at most."""
+    with store(path) as (connection, options):
+        between: Any = OutOfOrder(connection, seed)
+        summary = train(config, Connection(between, None), options)
+        return outcome(connection, summary), between.most_open
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, ...]:
+    """The run that most tests are about."""
+    return at_once(tmp_path_factory.mktemp("plain"), corridor())
+
+
+@pytest.fixture(scope="module")
+def three_in_flight(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, ...]:
+    return at_once(tmp_path_factory.mktemp("three"), corridor(in_flight=3))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_with_three_episodes_in_flight_the_run_is_the_same_whatever_order_the_answers_come_in(
+    tmp_path: Path, three_in_flight: tuple[Any, ...], seed: int
+) -> None:
+    found, most_open = out_of_order(tmp_path, corridor(in_flight=3), seed)
+    assert found == three_in_flight
+    assert most_open == 3
+
+
+def test_one_episode_in_flight_never_has_more_than_one_open_question(tmp_path: Path, plain: tuple[Any, ...]) -> None:
+    found, most_open = out_of_order(tmp_path, corridor(), seed=1)
+    assert most_open == 1
+    assert found == plain
+
+
+def test_the_same_values_give_the_same_run_and_another_seed_another(tmp_path: Path, plain: tuple[Any, ...]) -> None:
+    assert at_once(tmp_path / "again", corridor()) == plain
+    assert at_once(tmp_path / "other", corridor(seed=2))[0] != plain[0]
+
+
+def test_queries_are_numbered_from_zero_in_every_episode_and_each_is_asked_once(plain: tuple[Any, ...]) -> None:
+    *_, asked = plain
+    by_episode: dict[int, list[int]] = {}
+    for episode, ordinal, *_ in asked:
+        by_episode.setdefault(episode, []).append(ordinal)
+    assert list(by_episode) == list(range(12))
+    assert all(ordinals == list(range(len(ordinals))) for ordinals in by_episode.values())
+    assert {ask["kind"] for _, _, ask, *_ in asked} == {
+        "hier_demo",
+        "inspect_full",
+        "label_hi",
+        "inspect_lo",
+        "label_lo",
+    }
+
+
+def test_the_run_starts_with_demonstrations_and_goes_on_with_questions(plain: tuple[Any, ...]) -> None:
+    *_, asked = plain
+    first = {episode: ask["kind"] for episode, ordinal, ask, *_ in asked if ordinal == 0}
+    assert [first[episode] for episode in range(12)] == ["hier_demo"] * 3 + ["inspect_full"] * 9
+
+
+def test_the_ledgers_sum_is_the_cost_of_the_summary(plain: tuple[Any, ...]) -> None:
+    _, cost, *_, asked = plain
+    assert cost["total"] == sum(units for *_, units in asked) == sum(cost["by_kind"].values())
+
+
+def test_demonstrations_alone_make_a_run_of_algorithm_1(tmp_path: Path) -> None:
+    *_, asked = at_once(tmp_path, corridor(algorithm="h-bc", episodes=4))
+    assert [ask["kind"] for _, _, ask, *_ in asked] == ["hier_demo"] * 4
+
+
+def test_every_episode_is_reported_with_a_test_on_an_unseen_instance(tmp_path: Path) -> None:
+    reported: list[wire.EpisodeResult] = []
+    with store(tmp_path) as (connection, options):
+        train(corridor(), connection, options, on_episode=reported.append)
+    assert [result.episode for result in reported] == list(range(12))
+    assert [result.warm_start for result in reported] == [True] * 3 + [False] * 9
+    assert [result.train_success is None for result in reported] == [True] * 3 + [False] * 9
+    assert all(0 < result.test_steps <= 30 for result in reported)
+    assert all(b.hi_labels >= a.hi_labels for a, b in pairwise(reported))
+    assert reported[2].hi_labels > 0
+    assert reported[2].lo_labels > reported[2].hi_labels
+
+
+def test_a_budget_ends_the_run_with_what_it_has_and_is_never_overspent(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options):
+        summary = train(corridor(), connection, replace(options, budget=95.0))
+        run = connection.learner.run(summary["run"])
+    assert summary["ended"] == "budget exhausted"
+    assert 0 < summary["episodes"] < 12
+    assert 0 < summary["cost"]["total"] <= 95
+    assert (run.state, run.spent, run.reserved) == ("finished", summary["cost"]["total"], 0)
+    assert (options.checkpoints / f"{run.id}.safetensors").exists()
+
+
+def test_a_budget_that_pays_nothing_ends_the_run_before_its_first_episode(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options):
+        summary = train(corridor(), connection, replace(options, budget=1.0))
+    assert (summary["ended"], summary["episodes"], summary["cost"]["total"]) == ("budget exhausted", 0, 0)
+    assert summary["success_rate"] is None
+
+
+def test_a_run_that_somebody_finishes_stops_with_the_servers_refusal(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options):
+        runs: list[str] = []
+
+        def finish(result: wire.EpisodeResult) -> None:
+            if result.episode == 4:
+                connection.learner.patch_run(runs[0], wire.RunPatch(state="finished"))
+
+        with pytest.raises(Refused, match="finished"):
+            train(corridor(), connection, options, lambda run, _: runs.append(run.id), finish)
+
+
+def test_a_bot_that_errs_answers_what_the_server_accepts_and_changes_the_run(
+    tmp_path: Path, plain: tuple[Any, ...]
+) -> None:
+    class Erring(OutOfOrder):
+        def answers(self, run: str, after: int, wait: float = 0) -> wire.AnswerPage:
+            bot.work(wait=0)
+            return self._client.answers(run, after, wait)
+
+    with store(tmp_path) as (connection, options):
+        assert connection.annotator is not None
+        bot = Bot(connection.annotator, BotSettings(error_rate=0.5, seed=1))
+        between: Any = Erring(connection, seed=0)
+        summary = train(corridor(), Connection(between, None), options)
+        erred = outcome(connection, summary)
+    assert erred[0] != plain[0]
+    assert summary["episodes"] == 12
+
+
+def test_a_bot_answers_only_the_kinds_and_the_run_it_was_told_to(tmp_path: Path) -> None:
+    class Restricted(OutOfOrder):
+        def answers(self, run: str, after: int, wait: float = 0) -> wire.AnswerPage:
+            for bot in (inspector, labeler):
+                bot.work(wait=0, on_answer=lambda receipt, bot=bot: answered[bot].append(receipt.query))
+            stranger.work(wait=0, on_answer=lambda _: pytest.fail("answered a run it was not told to"))
+            return self._client.answers(run, after, wait)
+
+    another = wire.RunCreate(name="another", algorithm="h-bc", seed=0, vocabulary=vocabulary(CorridorDomain()))
+    with store(tmp_path) as (connection, options):
+        annotator = connection.annotator
+        assert annotator is not None
+        inspector = Bot(annotator, BotSettings(kinds=("inspect_full", "inspect_lo")))
+        labeler = Bot(annotator, BotSettings(kinds=("hier_demo", "label_hi", "label_lo")))
+        stranger = Bot(annotator, BotSettings(run=connection.learner.create_run(another).id))
+        answered: dict[Bot, list[int]] = {inspector: [], labeler: []}
+        between: Any = Restricted(connection, seed=0)
+        train(corridor(), Connection(between, None), options)
+        kinds = {bot: {connection.learner.query(q).ask.kind for q in queries} for bot, queries in answered.items()}
+    assert "inspect_full" in kinds[inspector]
+    assert kinds[inspector] <= {"inspect_full", "inspect_lo"}
+    assert "hier_demo" in kinds[labeler]
+    assert kinds[labeler] <= {"hier_demo", "label_hi", "label_lo"}

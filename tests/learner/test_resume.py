@@ -1,0 +1,140 @@
+"""A run that was interrupted goes on with `--resume` as if it never had been: weights, queries, costs, results."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from learner import driver
+from learner.checkpoints import read_header
+from learner.cli import app
+from learner.config import TrainConfig
+from learner.inprocess import InProcessTransport
+from learner.training import train
+from tests.learner.kit import corridor, outcome, store
+
+
+class Interrupted(BaseException):
+    """The learner's end, out of the blue."""
+
+
+@contextmanager
+def interrupted_at(call: int, before_it_arrives: bool) -> Iterator[None]:
+    """Let everything end with the n-th call to the server: before it arrives, or after it was carried out."""
+    original: Callable[..., Any] = InProcessTransport.handle_request
+    calls = 0
+
+    def handle(transport: InProcessTransport, request: Any) -> Any:
+        nonlocal calls
+        calls += 1
+        if calls == call and before_it_arrives:
+            raise Interrupted
+        response = original(transport, request)
+        if calls == call:
+            raise Interrupted
+        return response
+
+    InProcessTransport.handle_request = handle  # type: ignore[method-assign]
+    try:
+        yield
+    finally:
+        InProcessTransport.handle_request = original  # type: ignore[method-assign]
+
+
+@pytest.fixture(autouse=True)
+def frequent_checkpoints(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(driver, "CHECKPOINT_EVERY", 4)
+
+
+def uninterrupted(path: Path, config: TrainConfig) -> tuple[Any, ...]:
+    with store(path) as (connection, options):
+        return outcome(connection, train(config, connection, options))
+
+
+def interrupted(path: Path, config: TrainConfig, call: int, before_it_arrives: bool) -> tuple[Any, ...]:
+    """The run, interrupted and resumed."""
+    with store(path) as (connection, options):
+        try:
+            with interrupted_at(call, before_it_arrives):
+                train(config, connection, options)
+        except Interrupted:
+            pass
+        runs = connection.learner.runs()
+        summary = train(config, connection, replace(options, resume=bool(runs)))
+        assert len(connection.learner.runs()) == 1
+        return outcome(connection, summary)
+
+
+@pytest.mark.parametrize("in_flight", [1, 3])
+def test_a_run_interrupted_at_any_call_and_resumed_is_the_run_that_never_was(tmp_path: Path, in_flight: int) -> None:
+    config = corridor(in_flight=in_flight)
+    expected = uninterrupted(tmp_path / "uninterrupted", config)
+    # Calls 1 to 9 are of the first episode and there are about 120: before and after each of the checkpoints.
+    for call, before_it_arrives in ((3, True), (25, False), (45, True), (60, False), (80, True), (110, False)):
+        found = interrupted(tmp_path / f"interrupted-{call}", config, call, before_it_arrives)
+        assert found == expected, f"interrupted at call {call}"
+
+
+def test_resuming_a_finished_run_starts_a_new_one(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options):
+        first = train(corridor(episodes=2), connection, options)
+        second = train(corridor(episodes=2), connection, replace(options, resume=True))
+    assert first["run"] != second["run"]
+    assert first["weights"] == second["weights"]
+
+
+def test_only_an_unfinished_run_of_the_same_values_is_resumed(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options):
+        for config in (corridor(episodes=3), corridor(episodes=3, seed=2)):
+            with pytest.raises(Interrupted), interrupted_at(15, before_it_arrives=True):
+                train(config, connection, options)
+        older = connection.learner.runs()[1].id
+        assert train(corridor(episodes=3), connection, replace(options, resume=True))["run"] == older
+
+
+def test_a_finished_run_leaves_a_checkpoint_of_its_weights(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options):
+        summary = train(corridor(episodes=5), connection, options)
+    header = read_header(options.checkpoints / f"{summary['run']}.safetensors")
+    assert (header.run, header.episodes, header.config) == (summary["run"], 5, corridor(episodes=5))
+
+
+def test_a_killed_waypost_train_resumed_reaches_the_weights_and_the_ledger_of_an_uninterrupted_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    values = ["train", "hg-dagger", "--domain", "corridor", "--preset", "tiny", "--seed", "1", "--episodes", "12"]
+    killed, whole = str(tmp_path / "killed.db"), str(tmp_path / "whole.db")
+    script = (
+        "import os, signal\n"
+        "from learner import cli, driver\n"
+        "from learner.inprocess import InProcessTransport\n"
+        "import tests.learner.kit\n"
+        "driver.CHECKPOINT_EVERY = 4\n"
+        "handle, calls = InProcessTransport.handle_request, []\n"
+        "def handle_request(self, request):\n"
+        "    calls.append(request)\n"
+        "    return os.kill(os.getpid(), signal.SIGKILL) if len(calls) == 70 else handle(self, request)\n"
+        "InProcessTransport.handle_request = handle_request\n"
+        "cli.main()\n"
+    )
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path.cwd()), *filter(None, sys.path)])}
+    done = subprocess.run([sys.executable, "-c", script, *values, "--store", killed], env=env, capture_output=True)
+    assert done.returncode == -signal.SIGKILL, done.stderr.decode()
+    (checkpoint,) = (tmp_path / "killed.db.checkpoints").iterdir()
+    assert read_header(checkpoint).episodes in (4, 8)
+
+    resumed = CliRunner().invoke(app, [*values, "--store", killed, "--resume", "--json"])
+    uninterrupted = CliRunner().invoke(app, [*values, "--store", whole, "--json"])
+    one, other = json.loads(resumed.stdout), json.loads(uninterrupted.stdout)
+    assert one["run"] == checkpoint.stem
+    for same in ("weights", "cost", "episodes", "success_rate", "first_at"):
+        assert one[same] == other[same]
