@@ -40,6 +40,9 @@ CheckpointsOption = Annotated[
     Path | None,
     typer.Option(help="Folder of checkpoints; beside the store, or ./checkpoints with a server."),
 ]
+PatienceOption = Annotated[
+    float, typer.Option(min=0, help="How long to go on when the server does not answer, seconds.")
+]
 ThreadsOption = Annotated[
     int | None, typer.Option(min=1, help="Processor threads to train with; it changes nothing but the time.")
 ]
@@ -64,6 +67,7 @@ def train(
     budget: Annotated[float | None, typer.Option(min=0, help="Most units the run may cost.")] = None,
     checkpoints: CheckpointsOption = None,
     threads: ThreadsOption = None,
+    patience: PatienceOption = 300.0,
     as_json: JsonOption = False,
 ) -> None:
     """Train with an algorithm of the paper; every answer and its price goes into the store."""
@@ -81,7 +85,7 @@ def train(
         options = training.RunOptions(name, budget, resume, _checkpoint_folder(checkpoints, store, server), threads)
         with ExitStack() as stack:
             connection = stack.enter_context(
-                training.remote(server, _needed(token), expert == "oracle")
+                training.remote(server, _needed(token), expert == "oracle", patience)
                 if server is not None
                 else training.embedded(store or Path("waypost.db"))
             )
@@ -123,6 +127,7 @@ def oracle(
     seconds: Annotated[float, typer.Option(min=0, help="How long to think about each answer.")] = 0.0,
     defer: Annotated[float, typer.Option(min=0, help="Leave queries so many seconds to people at work.")] = 0.0,
     seed: Annotated[int, typer.Option(min=0, help="Of the random answers.")] = 0,
+    patience: PatienceOption = 300.0,
 ) -> None:
     """Answer queries with the oracle of their domain, until interrupted."""
     chosen = _kinds(kinds)
@@ -130,7 +135,7 @@ def oracle(
         from learner.bot import Bot, BotSettings
         from learner.client import Client
 
-        client = Client(server, _needed(token))
+        client = Client(server, _needed(token), patience=patience)
         bot = Bot(client, BotSettings(run, chosen, error_rate, seconds, defer, seed))
         answers, units = 0, 0.0
 

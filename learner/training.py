@@ -68,9 +68,9 @@ def embedded(store: Path) -> Iterator[Connection]:
 
 
 @contextmanager
-def remote(server: str, token: str, answers_here: bool) -> Iterator[Connection]:
+def remote(server: str, token: str, answers_here: bool, patience: float) -> Iterator[Connection]:
     """Connect to a server; with `answers_here` an oracle in this process answers (the token must be an admin's)."""
-    client = Client(server, token)
+    client = Client(server, token, patience=patience)
     try:
         yield Connection(client, client if answers_here else None)
     finally:

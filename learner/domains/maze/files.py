@@ -1,6 +1,7 @@
 """Maze sets in files: `.npz` with `lava` bool[N, 17, 17], `start` int8[N, 2] and `goal` int8[N, 2], (row, column)."""
 
 import zipfile
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -29,11 +30,14 @@ def load_mazes(path: Path) -> list[Maze]:
         ValueError: the file is none; the message names the array at fault.
     """
     try:
-        with np.load(path, allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
+        with path.open("rb") as stream:
+            loaded = np.load(stream, allow_pickle=False)
+            if not isinstance(loaded, np.lib.npyio.NpzFile):
+                raise ValueError("it is a single array")
+            arrays = {name: np.asarray(loaded[name]) for name in loaded.files}
     except FileNotFoundError as error:
         raise ValueError(f"there is no file {path}") from error
-    except (OSError, ValueError, zipfile.BadZipFile, AttributeError) as error:
+    except (OSError, EOFError, ValueError, zipfile.BadZipFile, zlib.error) as error:
         raise ValueError(f"{path} is no maze set: an .npz file without pickles is expected ({error})") from error
     lava, start, goal = (_checked(path, arrays, name) for name in _SHAPES)
     if not len(lava):
