@@ -7,7 +7,7 @@ from itertools import count
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from server import serving, wire
 from server.serving import Served
@@ -25,6 +25,7 @@ FLAGS = [
 ]
 WIDE = {"width": 1440, "height": 900}
 _numbers = count()
+expect.set_options(timeout=15_000)  # a busy machine is not a broken page
 
 Open = Callable[..., Page]
 
@@ -91,7 +92,7 @@ def open_page(browser: Browser, served: Served, complaints: Complaints) -> Itera
     ) -> Page:
         server = at or served
         context = browser.new_context(base_url=server.url, viewport=size, color_scheme=scheme, reduced_motion=motion)
-        context.set_default_timeout(10_000)
+        context.set_default_timeout(15_000)
         contexts.append(context)
         if intercepted:  # from the start: a route added later may miss the very next request
             context.route("**/nothing", lambda route: route.abort())
