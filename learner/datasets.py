@@ -92,7 +92,7 @@ class Labels:
                 break
 
     def append_demonstration(self, demonstration: Trajectory) -> None:
-        """Lines 5-8 of Algorithm 1: each segment's labels are what the expert did."""
+        """Lines 5-7 of Algorithm 1: each segment's labels are what the expert did."""
         for segment in demonstration:
             terminations = (*(False for _ in segment.actions), True)
             self.append_lo(segment, LoLabels(segment.actions, terminations))

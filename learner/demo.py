@@ -1,6 +1,7 @@
 """`waypost demo`: a server, a learner and an oracle bot that leaves the questions to you while you answer them."""
 
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -25,9 +26,11 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
     Raises:
         CannotServe, BadDatabase, NewerStore: with one sentence for the user.
     """
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # told to stop, take the others along
     settings = Settings(database=f"sqlite:///{database}", link_seconds=LINK_SECONDS)
     with ExitStack() as stack:
         served = stack.enter_context(serving.background(settings, port=port))
+        log = stack.enter_context(database.with_name(f"{database.name}.log").open("ab"))
 
         def start(name: str, role: str, *command: str) -> subprocess.Popen[bytes]:
             user = served.db.write_now(lambda tx: people.ensure_user(tx, name, role))  # type: ignore[arg-type]
@@ -36,8 +39,8 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
                 [sys.executable, "-m", "learner.cli", *command, "--server", served.url],
                 env={**os.environ, "WAYPOST_TOKEN": token},
                 stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
+                stdout=log,
+                stderr=log,
             )
             stack.callback(process.wait)
             stack.callback(process.terminate)
@@ -54,7 +57,7 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
         learner = start("demo-learner", "learner", *train, *values, *checkpoints)
         try:
             if learner.wait():
-                typer.echo("The learner stopped before the end; see the run's page for what was kept.", err=True)
+                typer.echo(f"The learner stopped before the end; {log.name} says why.", err=True)
             else:
                 typer.echo("The run is finished; the page stays until you press Ctrl-C.")
             while True:

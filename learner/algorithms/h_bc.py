@@ -10,8 +10,8 @@ from learner.types import State
 
 
 def h_bc(s: State, learner: Learner) -> Generator[Query, Any, Labels]:  # noqa: ARG001 (algorithms share a signature)
-    """Run one episode, lines 3-9, from the start state s; Train (lines 10-11) follows in `Learner.learn`."""
+    """Run one episode, lines 3-7, from the start state s; Train (lines 8-9) follows in `Learner.learn`."""
     labels = Labels()
     sigma_star = yield HierDemo(s)  # line 4
-    labels.append_demonstration(sigma_star)  # lines 5-8
+    labels.append_demonstration(sigma_star)  # lines 5-7
     return labels

@@ -13,7 +13,7 @@ from learner.types import State
 
 
 def hg_dagger(s: State, learner: Learner) -> Generator[Query, Any, Labels]:
-    """Run one episode after the warm start, lines 4-20; Train (lines 21-22) follows in `Learner.learn`."""
+    """Run one episode after the warm start, lines 4-19; Train (lines 20-21) follows in `Learner.learn`."""
     labels = Labels()
     sigma = learner.roll_out(s)  # lines 5-11
     if not (yield InspectFull(sigma)):  # line 13

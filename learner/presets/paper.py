@@ -1,4 +1,4 @@
-"""The paper's setting: section 5.1, the appendix, Table 1, and the authors' values where the text is silent."""
+"""The paper's setting: section 6.1, the appendix, Table 1, and the authors' values where the text is silent."""
 
 from learner.networks import NetworkSpec
 from learner.policies import TrainSpec

@@ -1,4 +1,4 @@
-"""The maze as a gymnasium environment (paper, section 5.1).
+"""The maze as a gymnasium environment (paper, section 6.1).
 
 Actions: up, down, left, right, one cell. Stepping on lava ends the episode with reward -1, stepping on the target ends
 it with reward 1, every other step gives 0; after 100 steps the episode is truncated.

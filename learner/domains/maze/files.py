@@ -33,12 +33,12 @@ def load_mazes(path: Path) -> list[Maze]:
         with path.open("rb") as stream:
             loaded = np.load(stream, allow_pickle=False)
             if not isinstance(loaded, np.lib.npyio.NpzFile):
-                raise ValueError("it is a single array")
+                raise ValueError("a single array")
             arrays = {name: np.asarray(loaded[name]) for name in loaded.files}
     except FileNotFoundError as error:
         raise ValueError(f"there is no file {path}") from error
     except (OSError, EOFError, ValueError, zipfile.BadZipFile, zlib.error) as error:
-        raise ValueError(f"{path} is no maze set: an .npz file without pickles is expected ({error})") from error
+        raise ValueError(f"{path} is no maze set: an .npz file of plain arrays is expected, without pickles") from error
     lava, start, goal = (_checked(path, arrays, name) for name in _SHAPES)
     if not len(lava):
         raise ValueError(f"{path} is an empty maze set: `lava` has no mazes")

@@ -1,4 +1,4 @@
-"""The maze and its geometry (paper, section 5.1 and appendix): 17 x 17 cells, 4 x 4 rooms of 3 x 3, lava walls.
+"""The maze and its geometry (paper, section 6.1 and appendix): 17 x 17 cells, 4 x 4 rooms of 3 x 3, lava walls.
 
 A cell is (row, column). Row and column lines 0, 4, 8, 12, 16 are walls; a free cell of an inner wall line is a *door*
 and belongs to no room. So a segment that leaves a room ends on the first cell of the next one, the door being behind.
