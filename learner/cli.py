@@ -82,6 +82,7 @@ def train(
         from learner.config import TrainConfig
 
         config = TrainConfig(algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start)
+        training.build_learner(config, threads)  # says what is wrong before there is a store
         options = training.RunOptions(name, budget, resume, _checkpoint_folder(checkpoints, store, server), threads)
         with ExitStack() as stack:
             connection = stack.enter_context(
@@ -200,7 +201,9 @@ def _learner_errors() -> Iterator[None]:
 
 def _sentence(error: Exception) -> str:
     text = str(error)
-    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "?")) else ".")
+    if text.split(maxsplit=1)[0].isalpha():  # not the name of a file
+        text = text[:1].upper() + text[1:]
+    return text if text.endswith((".", "?")) else f"{text}."
 
 
 def _needed(token: str) -> str:

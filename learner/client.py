@@ -156,7 +156,7 @@ class Client:
             except httpx2.TransportError as error:
                 trouble = repr(error)
             if time.monotonic() + pause > give_up_at:
-                raise Unreachable(f"{self._http.base_url} does not answer ({trouble}): is the server running?")
+                raise Unreachable(f"the server at {self._http.base_url} does not answer ({trouble}): is it running?")
             time.sleep(pause)
             pause = min(2 * pause, _LONGEST_PAUSE)
         if response.is_error:
