@@ -8,8 +8,8 @@ from learner.rollout import Choosing
 DEMO = Preset(
     warm_start=20,
     network=NetworkSpec(channels=(16, 32), hidden=128),
-    train_hi=TrainSpec(learning_rate=1e-3, batch=64, passes=1, dropout=0.1),
-    train_lo=TrainSpec(learning_rate=1e-3, batch=64, passes=1, dropout=0.1),
+    train_hi=TrainSpec(learning_rate=1e-3, batch=32, passes=2, most=4096, dropout=0.3),
+    train_lo=TrainSpec(learning_rate=1e-3, batch=32, passes=1, least=2048, dropout=0.3),
     choosing=Choosing(temperature=0.1, termination_threshold=0.9),
     symmetries=True,
 )
