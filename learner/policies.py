@@ -54,7 +54,7 @@ class Policy:
         self.rng = torch.Generator().manual_seed(seed)
         self.network = build_network(observation_shape, choices + int(terminates), network, train.dropout, self.rng)
         self.optimizer = torch.optim.Adam(self.network.parameters(), lr=train.learning_rate, fused=True)
-        self._bf16 = train.bf16 and torch.ops.mkldnn._is_mkldnn_bf16_supported()
+        self.bf16 = train.bf16 and torch.ops.mkldnn._is_mkldnn_bf16_supported()
         self.network.eval()
 
     @torch.inference_mode()
@@ -74,7 +74,7 @@ class Policy:
         order = torch.cat([torch.randperm(len(data), generator=self.rng) for _ in range(passes)])[:n_rows]
         self.network.train()
         for rows in torch.split(order, spec.batch):
-            with torch.autocast("cpu", torch.bfloat16, enabled=self._bf16):
+            with torch.autocast("cpu", torch.bfloat16, enabled=self.bf16):
                 out = self.network(_channels_last(data.observations[rows]))
             loss = self._loss(out.float(), data.labels[rows])
             self.optimizer.zero_grad()

@@ -1,0 +1,158 @@
+"""How fast policies learn and act, with the paper preset's network: `python bench/training.py`.
+
+Training: samples a second of `Policy.train` on maze observations, beside a plain torch loop on the same network, data
+and batch size in the same run, as one would write it (32-bit floats) and with the same mixed precision and layout.
+Acting: the latency of one state and of a batch. One thread, as a learner gives to each policy. Speeds are the best of
+several rounds, ratios the median over the rounds. Prints tables; asserts nothing.
+"""
+
+import argparse
+import os
+import platform
+import statistics
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch import nn
+
+from learner.datasets import Dataset, Row
+from learner.domains.maze.domain import MazeDomain
+from learner.domains.maze.generator import maze_set
+from learner.domains.maze.maze import SUBGOALS
+from learner.policies import Policy
+from learner.presets.paper import PAPER
+from learner.simulator import Simulator
+
+ROUNDS = 5
+SPEC = PAPER.train_hi
+
+
+def machine(policy: Policy) -> str:
+    """The processor, its cores, how busy it is with other things, and what Train makes of it."""
+    info = Path("/proc/cpuinfo")
+    models = [line.split(":")[1].strip() for line in info.read_text().splitlines() if "model name" in line]
+    load = os.getloadavg()[0]
+    precision = "bf16 mixed precision" if policy.bf16 else "32-bit floats"
+    model = models[0] if models else platform.processor()
+    return f"{model}, {os.cpu_count()} cores, load {load:.1f}, torch {torch.__version__}, Train in {precision}"
+
+
+def observations(n: int) -> Dataset:
+    """Start states of mazes, labeled at random."""
+    domain, rng, data = MazeDomain(), np.random.default_rng(0), Dataset((3, 17, 17))
+    simulator, mazes = Simulator(domain), maze_set("random")[0]
+    states = (simulator.reset(mazes[number % len(mazes)]) for number in range(n))
+    data.append(Row(state.observation, int(rng.integers(len(SUBGOALS)))) for state in states)
+    return data
+
+
+def plain_network(dropout: float) -> nn.Sequential:
+    """Table 1 with torch's own layers."""
+    layers: list[nn.Module] = []
+    channels = 3
+    for width in PAPER.network.channels:
+        layers += [nn.Conv2d(channels, width, 3, padding="same"), nn.ReLU(), nn.Conv2d(width, width, 3), nn.ReLU()]
+        layers += [nn.MaxPool2d(2), nn.Dropout(dropout)]
+        channels = width
+    layers += [nn.Flatten(), nn.LazyLinear(PAPER.network.hidden), nn.ReLU(), nn.Dropout(dropout)]
+    network = nn.Sequential(*layers, nn.Linear(PAPER.network.hidden, len(SUBGOALS)))
+    network(torch.zeros(1, 3, 17, 17))
+    return network
+
+
+def plain_loop(data: Dataset, rows: int, bf16: bool) -> Callable[[], None]:
+    """Train as one would write it in torch."""
+    network = plain_network(SPEC.dropout)
+    if bf16:
+        network = network.to(memory_format=torch.channels_last)
+    optimizer = torch.optim.Adam(network.parameters(), lr=SPEC.learning_rate)
+    criterion = nn.CrossEntropyLoss()
+    pictures, choices = data.observations.clone(), data.labels[:, 0].clone()
+
+    def train() -> None:
+        network.train()
+        for batch in torch.randint(len(data), (rows,)).split(SPEC.batch):
+            with torch.autocast("cpu", torch.bfloat16, enabled=bf16):
+                loss = criterion(network(pictures[batch]), choices[batch])
+            optimizer.zero_grad()
+            loss.backward()
+            optimizer.step()
+
+    return train
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """Measure one round."""
+    began = time.perf_counter()
+    work()
+    return time.perf_counter() - began
+
+
+def in_turns(works: dict[str, Callable[[], object]]) -> dict[str, list[float]]:
+    """Measure each in turn, so that ratios are of figures taken side by side; the first round only warms up."""
+    taken: dict[str, list[float]] = {name: [] for name in works}
+    for _ in range(1 + ROUNDS):
+        for name, work in works.items():
+            taken[name].append(seconds(work))
+    return {name: times[1:] for name, times in taken.items()}
+
+
+def ratio(taken: dict[str, list[float]], limit: str, name: str) -> float:
+    """How many times as fast `name` is as `limit`."""
+    return statistics.median(a / b for a, b in zip(taken[limit], taken[name], strict=True))
+
+
+def print_training(policy: Policy, data: Dataset) -> None:
+    rows = min(max(SPEC.passes * len(data), SPEC.least), SPEC.most)
+    same = f"plain torch, {'bf16, channels last' if policy.bf16 else 'channels last'}"
+    works: dict[str, Callable[[], object]] = {
+        "Policy.train": lambda: policy.train(data),
+        same: plain_loop(data, rows, bf16=policy.bf16),
+        "plain torch": plain_loop(data, rows, bf16=False),
+    }
+    taken = in_turns(works)
+    print(f"| training, batch {SPEC.batch} | samples/s | Policy.train beside it |")
+    print("|---|---|---|")
+    for name, times in taken.items():
+        print(f"| {name} | {rows / min(times):,.0f} | {ratio(taken, name, 'Policy.train'):.2f} |")
+
+
+def print_latency(policy: Policy, data: Dataset) -> None:
+    network = plain_network(0.0).eval()
+    print("\n| acting | Policy, ms | plain torch, ms | Policy beside it |")
+    print("|---|---|---|---|")
+    for batch, calls in ((1, 300), (256, 10)):
+        pictures = data.observations[:batch].numpy()
+        inputs = torch.from_numpy(pictures)
+
+        def act(pictures: np.ndarray = pictures, calls: int = calls) -> None:
+            for _ in range(calls):
+                policy(pictures)
+
+        @torch.inference_mode()
+        def plain(inputs: torch.Tensor = inputs, calls: int = calls) -> None:
+            for _ in range(calls):
+                network(inputs)
+
+        taken = in_turns({"Policy": act, "plain": plain})
+        ms = [1e3 * min(taken[name]) / calls for name in ("Policy", "plain")]
+        print(f"| batch {batch} | {ms[0]:.3f} | {ms[1]:.3f} | {ratio(taken, 'plain', 'Policy'):.2f} |")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--rows", type=int, default=512, help="rows in the buffer")
+    arguments = parser.parse_args()
+    torch.set_num_threads(1)
+    data = observations(arguments.rows)
+    policy = Policy((3, 17, 17), len(SUBGOALS), False, PAPER.network, SPEC, seed=0)
+    print(machine(policy))
+    print_training(policy, data)
+    print_latency(policy, data)
+
+
+if __name__ == "__main__":
+    main()
