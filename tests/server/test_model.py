@@ -4,6 +4,7 @@ The model knows runs' budgets, queries' states and what each answer cost. After 
 ledger and every query must be as the model has them.
 """
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -23,7 +24,7 @@ from tests.server.kit import Json, Service, in_process, query, right_answer
 
 PRICE = {"inspect_full": 1, "label_lo": 3, "label_hi": 1, "label_full": 2, "hier_demo": 4}
 RESERVE = PRICE | {"hier_demo": 10}
-BUDGET = 25
+BUDGET = 40
 
 
 @dataclass
@@ -43,6 +44,7 @@ class Model(RuleBasedStateMachine):
     """Calls chosen at random, each with what the model expects of it."""
 
     service: Service
+    seen: Counter[str]
 
     @initialize()
     def start(self) -> None:
@@ -69,6 +71,7 @@ class Model(RuleBasedStateMachine):
         fits = self.spent + self.reserved + RESERVE[kind] <= BUDGET
         expect = 409 if self.state == "finished" else 200 if fits else 402
         reply = self.service.learner.ask(self.run, query(kind, ordinal=len(self.queries)), expect=expect)
+        self.seen[f"asked {expect}"] += 1
         if expect == 200:
             self.queries.append(ModelQuery(reply[0]["id"], kind))
 
@@ -92,7 +95,7 @@ class Model(RuleBasedStateMachine):
         self.service.learner.patch(self.run, 409 if self.state == "finished" else 200, state=wanted)
         self.state = self.state if self.state == "finished" else wanted
 
-    @precondition(lambda self: len(self.queries) > 6)
+    @precondition(lambda self: len(self.queries) > 5)
     @rule()
     def finish(self) -> None:
         self.service.learner.patch(self.run, state="finished")
@@ -122,6 +125,14 @@ class Model(RuleBasedStateMachine):
         receipts = [self.people[one.holder].answer(one.assignment, content) for _ in range(times)]
         assert all(receipt == receipts[0] and receipt["units"] == PRICE[one.kind] for receipt in receipts)
         one.state = "answered"
+
+    @rule(who=st.integers(0, 1))
+    def lease_and_answer(self, who: int) -> None:
+        self.lease(who, None)
+        for one in self.those("leased")[:1]:
+            assert one.assignment is not None
+            self.people[one.holder].answer(one.assignment)
+            one.state = "answered"
 
     @precondition(lambda self: self.those("cancelled", "answered"))
     @rule(data=st.data())
@@ -153,6 +164,7 @@ class Model(RuleBasedStateMachine):
         fits = self.spent + self.reserved + RESERVE[one.kind] - PRICE[one.kind] <= BUDGET
         refused = 409 if one.used or self.state == "finished" else 200 if fits else 402
         again = self.people[one.holder].retract(one.assignment, expect=refused)
+        self.seen[f"retracted {refused}"] += 1
         if refused == 200:
             one.state, one.assignment = "leased", again
 
@@ -183,14 +195,17 @@ class Model(RuleBasedStateMachine):
 @pytest.mark.filterwarnings("ignore::hypothesis.errors.NonInteractiveExampleWarning")
 def test_the_server_does_what_the_model_does(database_url: str) -> None:
     with in_process(database_url) as service:
-        machine: Callable[[], Model] = type("Machine", (Model,), {"service": service})
+        seen: Counter[str] = Counter()
+        machine: Callable[[], Model] = type("Machine", (Model,), {"service": service, "seen": seen})
         run_state_machine_as_test(
             machine,
             settings=settings(
-                max_examples=12,
-                stateful_step_count=25,
+                max_examples=10,
+                stateful_step_count=35,
                 deadline=None,
                 derandomize=True,
                 suppress_health_check=list(HealthCheck),
             ),
         )
+    # What the sequences must have met for the test to mean something.
+    assert {"asked 200", "asked 402", "retracted 200", "retracted 409"} <= set(seen), seen
