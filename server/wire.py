@@ -473,7 +473,7 @@ class UserList(Message):
 class TokenCreate(Message):
     """An API token for a user."""
 
-    user: int
+    user: int = Field(ge=1, le=2**63 - 1)
     label: Note = ""
 
 
