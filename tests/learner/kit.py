@@ -31,7 +31,7 @@ TINY = Preset(
 )
 """A preset for runs of a second, in which policies make all kinds of mistakes."""
 
-examples = settings(deadline=None, max_examples=60)
+examples = settings(deadline=None, max_examples=40)
 """How properties are tried."""
 
 GREEDY = Choosing(temperature=0, termination_threshold=0.9)

@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import httpx2
 import pytest
 
+from learner.bot import Bot
 from learner.client import Client, Refused, Unreachable
 from learner.domains.corridor import CorridorDomain
 from learner.experts.oracle import OracleExpert
@@ -213,3 +215,22 @@ def test_a_question_given_back_is_nobodys_and_goes_to_whoever_asks_next(service:
     again = service.annotator.lease(wire.Lease())
     assert again is not None
     assert again.query.id == assignment.query.id
+
+
+def test_a_bot_whose_lease_was_lost_goes_on_with_the_next_question(service: Service) -> None:
+    run = service.learner.create_run(RUN).id
+    service.learner.ask(run, [demonstration(episode) for episode in range(3)])
+    answer, lost = service.annotator.answer, []
+
+    def losing_the_first(assignment: wire.Assignment, *rest: Any) -> wire.Receipt:
+        if not lost:
+            lost.append(assignment.query.id)
+            service.annotator.release(assignment, skip=True)
+        return answer(assignment, *rest)
+
+    service.annotator.answer = losing_the_first  # type: ignore[method-assign]
+    receipts: list[wire.Receipt] = []
+    Bot(service.annotator).work(wait=0, on_answer=receipts.append)
+    assert len(receipts) == 2
+    assert lost[0] not in {receipt.query for receipt in receipts}
+    assert service.learner.query(lost[0]).state == "open"

@@ -216,6 +216,16 @@ def test_of_two_good_subgoals_both_are_good() -> None:
     assert set(oracle.good_subgoals(maze.to_json(), [2, 2])) == {SOUTH, EAST}
 
 
+def test_in_the_targets_room_only_going_there_is_good_even_if_the_way_leads_through_another_room() -> None:
+    lava = closed_rooms()
+    lava[1:4, 2] = True  # the room's left and right parts are connected through the room below
+    lava[4, 1] = lava[4, 3] = False
+    maze = Maze(lava, (1, 1), (1, 3))
+    assert oracle.good_subgoals(maze.to_json(), [1, 1]) == [TARGET]
+    assert oracle.good_actions(maze.to_json(), [1, 1], [3, 1], TARGET) == [1]
+    assert not oracle.reached(maze.to_json(), [1, 1], [5, 2], TARGET)
+
+
 def test_an_action_along_the_wall_comes_before_the_one_toward_the_door_whichever_way_the_maze_is_turned() -> None:
     lava = closed_rooms()
     lava[3, 4] = False

@@ -161,6 +161,17 @@ def test_after_an_overshoot_actions_are_null_from_the_first_true_termination_on_
     )
 
 
+def test_a_segment_is_over_in_its_room_also_if_it_came_in_by_another_door() -> None:
+    lava = closed_rooms()
+    for door in ((2, 4), (4, 2), (6, 4), (4, 6)):
+        lava[door] = False
+    around = [*[DOWN] * 3, *[RIGHT] * 4, *[UP] * 3]
+    answer = expert(ask("label_lo", Maze(lava, (3, 2), (2, 7)), [walked((3, 2), EAST, *around, UP, LEFT)]))
+    assert isinstance(answer, wire.LabelLoAnswer)
+    assert answer.terminations == [False] * 10 + [True] * 3
+    assert [action is None for action in answer.actions] == [False] * 10 + [True] * 2
+
+
 @examples
 @given(trajectories())
 def test_only_at_and_after_a_true_termination_is_an_action_null(walk: tuple[Maze, list[wire.Segment]]) -> None:

@@ -78,8 +78,8 @@ def interrupted(path: Path, config: TrainConfig, call: int, before_it_arrives: b
 def test_a_run_interrupted_at_any_call_and_resumed_is_the_run_that_never_was(tmp_path: Path, in_flight: int) -> None:
     config = corridor(in_flight=in_flight)
     expected = uninterrupted(tmp_path / "uninterrupted", config)
-    # Calls 1 to 9 are of the first episode and there are about 120: before and after each of the checkpoints.
-    for call, before_it_arrives in ((3, True), (25, False), (45, True), (60, False), (80, True), (110, False)):
+    # Calls 1 to 9 are of the first episode and there are about 120: around each of the checkpoints.
+    for call, before_it_arrives in ((3, True), (25, False), (60, True), (110, False)):
         found = interrupted(tmp_path / f"interrupted-{call}", config, call, before_it_arrives)
         assert found == expected, f"interrupted at call {call}"
 
