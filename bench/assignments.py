@@ -29,7 +29,7 @@ from server.database import Database
 from tests.conftest import Cluster, postgresql_binaries
 
 ANNOTATORS = (1, 8, 32)
-BATCH = 500  # queries asked at a time
+BATCH = 100  # queries asked at a time
 BACKLOG = 3_000  # queries kept open
 VOCABULARY = {"domain": "bench", "subgoals": ["here"], "actions": ["up", "down"], "renderer": "none"}
 HEADER = "| database | mode | annot. | cycles/s | p50 ms | p99 ms | max ms | server CPU ms/cycle | duplicates |"

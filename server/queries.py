@@ -39,7 +39,7 @@ QUERIES: Select[Any] = (
 
 
 _VIEW = QUERIES.where(queries.c.id == bindparam("query"))
-_INSERT = insert(queries).returning(queries.c.id)
+_INSERT = insert(queries).returning(queries.c.id, sort_by_parameter_order=True)
 
 
 @dataclass(frozen=True)
@@ -132,18 +132,18 @@ def answered_after(tx: Tx, run: str, cursor: int, limit: int) -> wire.AnswerPage
     return wire.AnswerPage(queries=found, cursor=cursor if last is None else last)
 
 
-def ask(tx: Tx, run: str, body: wire.AskList, most_open: int) -> wire.Asked:
+def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_open: int) -> wire.Asked:
     """Ask all of the queries or none; those asked before are returned as they stand."""
-    contents = [Content.of(one) for one in body.queries]
     run_row = runs.lock(tx, run)
     known = _known(tx, run, contents)
     new = _new(contents, known)
     if new:
         _check_new(tx, run_row, body, new, most_open)
-        amounts = {one.key: kinds.reserve(one.ask, wire.Prices.model_validate_json(run_row.prices)) for one in new}
-        money.reserve(tx, runs.account(run_row), sum(amounts.values()))
-        for one in new:
-            known[one.key] = (_insert(tx, run, one, body.priority, amounts[one.key]), one.digest)
+        prices = wire.Prices.model_validate_json(run_row.prices)
+        reserves = [kinds.reserve(one.ask, prices) for one in new]
+        money.reserve(tx, runs.account(run_row), sum(reserves))
+        ids = _insert(tx, run, new, body.priority, reserves)
+        known |= {one.key: (query, one.digest) for one, query in zip(new, ids, strict=True)}
         tx.wake(live.QUEUE)
     rows = tx.conn.execute(QUERIES.where(queries.c.id.in_([known[one.key][0] for one in contents]))).all()
     views = {row.id: of_row(row) for row in rows}
@@ -191,26 +191,30 @@ def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Cont
         )
 
 
-def _insert(tx: Tx, run: str, content: Content, priority: int, reserve: int) -> int:
-    one = content.ask
-    row = {
-        "run_id": run,
-        "episode": one.episode,
-        "ordinal": one.ordinal,
-        "kind": one.kind,
-        "state": "open",
-        "priority": priority,
-        "ask": content.text,
-        "digest": content.digest,
-        "reserve": reserve,
-        "revision": 0,
-        "used": False,
-        "created_at": tx.now,
-    }
-    query = int(tx.conn.execute(_INSERT, row).scalar_one())
-    data = {"query": query, "kind": one.kind, "episode": one.episode, "ordinal": one.ordinal}
-    events.add(tx, run, "asked", data)
-    return query
+def _insert(tx: Tx, run: str, new: Sequence[Content], priority: int, reserves: Sequence[int]) -> list[int]:
+    """Store new queries and their events, many at once; returns their ids in the same order."""
+    rows = [
+        {
+            "run_id": run,
+            "episode": one.ask.episode,
+            "ordinal": one.ask.ordinal,
+            "kind": one.ask.kind,
+            "state": "open",
+            "priority": priority,
+            "ask": one.text,
+            "digest": one.digest,
+            "reserve": reserve,
+            "revision": 0,
+            "used": False,
+            "created_at": tx.now,
+        }
+        for one, reserve in zip(new, reserves, strict=True)
+    ]
+    ids = [int(query) for query in tx.conn.execute(_INSERT, rows).scalars()]
+    for query, one in zip(ids, new, strict=True):
+        data = {"query": query, "kind": one.ask.kind, "episode": one.ask.episode, "ordinal": one.ask.ordinal}
+        events.add(tx, run, "asked", data)
+    return ids
 
 
 def use(tx: Tx, query: int) -> wire.Query:

@@ -26,7 +26,8 @@ Seconds = Annotated[float, Query(ge=0, le=60, allow_inf_nan=False, description="
 async def ask(run: str, body: wire.AskList, context: Ctx, _: LearnerCalls) -> wire.Asked:
     """Ask the expert: all of the queries or none. A query asked before is returned with its answer."""
     limit = context.settings.max_open_queries
-    return await context.db.write(lambda tx: queries.ask(tx, run, body, limit))
+    contents = [queries.Content.of(one) for one in body.queries]
+    return await context.db.write(lambda tx: queries.ask(tx, run, body, contents, limit))
 
 
 @router.get("/runs/{run}/queries", operation_id="listQueries", responses=refusals(errors.NotFound))
