@@ -28,14 +28,14 @@ class Interrupted(BaseException):
 
 
 @contextmanager
-def interrupted_at(call: int, before_it_arrives: bool) -> Iterator[None]:
-    """Let everything end with the n-th call to the server: before it arrives, or after it was carried out."""
+def interrupted_at(call: int, before_it_arrives: bool, route: str = "") -> Iterator[None]:
+    """Let everything end with the n-th call (to a route): before it arrives, or after it was carried out."""
     original: Callable[..., Any] = InProcessTransport.handle_request
     calls = 0
 
     def handle(transport: InProcessTransport, request: Any) -> Any:
         nonlocal calls
-        calls += 1
+        calls += request.url.path.endswith(route)
         if calls == call and before_it_arrives:
             raise Interrupted
         response = original(transport, request)
@@ -82,6 +82,28 @@ def test_a_run_interrupted_at_any_call_and_resumed_is_the_run_that_never_was(tmp
     for call, before_it_arrives in ((3, True), (25, False), (60, True), (110, False)):
         found = interrupted(tmp_path / f"interrupted-{call}", config, call, before_it_arrives)
         assert found == expected, f"interrupted at call {call}"
+
+
+@pytest.mark.timeout(120)
+def test_a_question_that_was_in_the_dead_experts_hands_is_given_back_at_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("WAYPOST_LEASE_SECONDS", "3000")  # its lease does not end by itself
+    with store(tmp_path) as (connection, options):
+        with pytest.raises(Interrupted), interrupted_at(5, before_it_arrives=True, route="/answer"):
+            train(corridor(), connection, options)
+        assert connection.annotator is not None
+        assert len(connection.annotator.assignments()) == 1
+        assert train(corridor(), connection, replace(options, resume=True))["ended"] == "finished"
+
+
+def test_a_resumed_run_goes_on_from_its_checkpoint(tmp_path: Path) -> None:
+    first: list[int] = []
+    with store(tmp_path) as (connection, options):
+        with pytest.raises(Interrupted), interrupted_at(7, before_it_arrives=False, route="/episodes"):
+            train(corridor(), connection, options)
+        train(corridor(), connection, replace(options, resume=True), lambda _, episode: first.append(episode))
+    assert first == [4]
 
 
 def test_resuming_a_finished_run_starts_a_new_one(tmp_path: Path) -> None:
