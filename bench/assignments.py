@@ -32,7 +32,7 @@ ANNOTATORS = (1, 8, 32)
 BATCH = 100  # queries asked at a time
 BACKLOG = 3_000  # queries kept open
 VOCABULARY = {"domain": "bench", "subgoals": ["here"], "actions": ["up", "down"], "renderer": "none"}
-HEADER = "| database | mode | annot. | cycles/s | limit / ours | p50 ms | p99 ms | max ms | server CPU ms/cycle | duplicates |"
+HEADER = "| database | mode | annot. | cycles/s | limit / ours | p50 ms | p99 ms | max ms | CPU ms/cycle | duplicates |"
 
 
 def query(number: int) -> dict[str, Any]:
