@@ -1,6 +1,7 @@
 """The driver: the same run whoever answers and in whatever order; what a budget, a pause and a refusal do to it."""
 
 import random
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -160,6 +161,33 @@ def test_a_run_that_somebody_finishes_stops_with_the_servers_refusal(tmp_path: P
 
         with pytest.raises(Refused, match="finished"):
             train(corridor(), connection, options, lambda run, _: runs.append(run.id), finish)
+
+
+def test_the_expert_in_process_answers_what_somebody_else_took_and_gave_back(
+    tmp_path: Path, plain: tuple[Any, ...]
+) -> None:
+    class Taken(OutOfOrder):
+        """Somebody takes each of the first questions, and gives it back only when the learner waits."""
+
+        waits = 0
+
+        def ask(self, run: str, queries: Sequence[wire.Ask]) -> list[wire.Query]:
+            asked = self._client.ask(run, queries)
+            if self.waits < 3:
+                self._held += filter(None, [self._annotator.lease(wire.Lease(run=run))])
+            return asked
+
+        def answers(self, run: str, after: int, wait: float = 0) -> wire.AnswerPage:
+            self.waits += 1
+            assert self.waits < 20, "nobody answers"
+            while self._held:
+                self._annotator.release(self._held.pop())
+            return self._client.answers(run, after)
+
+    with store(tmp_path) as (connection, options):
+        between: Any = Taken(connection, seed=0)
+        assert outcome(connection, train(corridor(), Connection(between, connection.annotator), options)) == plain
+        assert between.waits >= 3
 
 
 def test_a_bot_that_errs_answers_what_the_server_accepts_and_changes_the_run(
