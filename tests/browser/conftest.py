@@ -42,9 +42,12 @@ def built_page() -> Path:
     return built.parent
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    """Chromium: WAYPOST_CHROMIUM, else the system's, else Playwright's own."""
+    """Chromium: WAYPOST_CHROMIUM, else the system's, else Playwright's own.
+
+    Not for the session: while Playwright runs, this thread has an event loop, and other tests bring their own.
+    """
     with sync_playwright() as playwright:
         executable = find_chromium(os.environ.get("WAYPOST_CHROMIUM"))
         browser = playwright.chromium.launch(executable_path=executable, args=FLAGS)
