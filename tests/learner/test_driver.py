@@ -178,6 +178,7 @@ def test_the_expert_in_process_answers_what_somebody_else_took_and_gave_back(
             return asked
 
         def answers(self, run: str, after: int, wait: float = 0) -> wire.AnswerPage:
+            del wait
             self.waits += 1
             assert self.waits < 20, "nobody answers"
             while self._held:
