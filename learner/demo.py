@@ -10,7 +10,7 @@ from pathlib import Path
 
 import typer
 
-from server import people, serving
+from server import people, serving, wire
 from server.cli import login_url
 from server.settings import Settings
 
@@ -32,8 +32,8 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
         served = stack.enter_context(serving.background(settings, port=port))
         log = stack.enter_context(database.with_name(f"{database.name}.log").open("ab"))
 
-        def start(name: str, role: str, *command: str) -> subprocess.Popen[bytes]:
-            user = served.db.write_now(lambda tx: people.ensure_user(tx, name, role))  # type: ignore[arg-type]
+        def start(name: str, role: wire.Role, *command: str) -> subprocess.Popen[bytes]:
+            user = served.db.write_now(lambda tx: people.ensure_user(tx, name, role))
             token = served.db.write_now(lambda tx: people.create_token(tx, user.id, "demo")).token
             process = subprocess.Popen(  # noqa: S603 (our own command)
                 [sys.executable, "-m", "learner.cli", *command, "--server", served.url],

@@ -6,6 +6,7 @@ rollout can run alone or many in step, the networks then seeing batches (`run_al
 
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -101,7 +102,7 @@ def run_all(rollouts: Sequence[Rollout], policies: Policies) -> list[Trajectory]
             waiting.pop(i, None)
 
     for i, rollout in enumerate(rollouts):
-        advance(i, lambda rollout=rollout: next(rollout))  # type: ignore[misc]
+        advance(i, partial(next, rollout))
     while waiting:
         for key, policy in policies.items():
             asked = [i for i, consult in waiting.items() if consult.policy == key]
@@ -110,7 +111,7 @@ def run_all(rollouts: Sequence[Rollout], policies: Policies) -> list[Trajectory]
             outputs: Outputs = policy(np.stack([waiting[i].state.observation for i in asked]))
             for row, i in enumerate(asked):
                 says = (outputs.logits[row], float(outputs.termination[row]))
-                advance(i, lambda i=i, says=says: rollouts[i].send(says))  # type: ignore[misc]
+                advance(i, partial(rollouts[i].send, says))
     return [results[i] for i in range(len(rollouts))]
 
 
