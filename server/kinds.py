@@ -81,7 +81,7 @@ class QueryKind(ABC, Generic[AskT, AnswerT]):
 class HierDemo(QueryKind[wire.AskHierDemo, wire.HierDemoAnswer]):
     """Costs the HI and LO labels the demonstration yields."""
 
-    def check_ask(self, ask: Any, words: Words, at: Location) -> None:  # noqa: ARG002
+    def check_ask(self, ask: Any, words: Words, at: Location) -> None:  # noqa: ARG002 - kinds share a signature
         """A demonstration names subgoals, so the run must have some."""
         if not words.subgoals:
             raise Unprocessable([*at, "kind"], "a run without subgoals cannot ask for a hierarchical demonstration")

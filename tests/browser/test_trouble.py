@@ -1,10 +1,11 @@
 """What a person meets when something goes wrong: nothing is lost, and the page says what happened."""
 
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import Route, expect
 
 from server import serving
 from server.settings import Settings
@@ -45,7 +46,7 @@ def test_an_answer_whose_receipt_was_lost_counts_once(
     wait_for_heading(page, QUESTION)
     lost = []
 
-    def lose_first(route) -> None:  # type: ignore[no-untyped-def]
+    def lose_first(route: Route) -> None:
         if lost:
             route.continue_()
         else:
@@ -143,7 +144,7 @@ def test_undo_works_while_waiting_and_not_once_the_learner_has_used_the_answer(
 
 
 @pytest.fixture
-def hasty(built_page: Path, tmp_path: Path):  # type: ignore[no-untyped-def]
+def hasty(built_page: Path, tmp_path: Path) -> Iterator[serving.Served]:
     """A server whose leases are over in a second, however often they are renewed."""
     settings = Settings(
         database=f"sqlite:///{tmp_path / 'waypost.db'}", page=built_page, lease_seconds=0.6, lease_cap_seconds=0.7
