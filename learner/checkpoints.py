@@ -15,7 +15,7 @@ import torch
 from safetensors import SafetensorError, safe_open
 from safetensors.torch import save
 
-from learner.config import TrainConfig
+from learner.config import Progress, TrainConfig
 from learner.datasets import Dataset
 from learner.learner import Learner
 
@@ -28,7 +28,7 @@ class Header:
 
     run: str
     config: TrainConfig
-    episodes: int  # applied so far
+    progress: Progress
 
 
 def write(path: Path, learner: Learner, header: Header, weights_only: bool) -> None:
@@ -60,7 +60,7 @@ def read_header(path: Path) -> Header:
     try:
         with safe_open(path, "pt") as file:
             fields = json.loads((file.metadata() or {})["waypost"])
-        return Header(fields["run"], TrainConfig(**fields["config"]), fields["episodes"])
+        return Header(fields["run"], TrainConfig(**fields["config"]), Progress(**fields["progress"]))
     except FileNotFoundError as error:
         raise ValueError(f"there is no checkpoint {path}") from error
     except (SafetensorError, OSError, KeyError, TypeError, json.JSONDecodeError) as error:

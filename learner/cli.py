@@ -50,13 +50,14 @@ ThreadsOption = Annotated[
 
 @app.command()
 def train(
-    algorithm: Annotated[str, typer.Argument(help="hg-dagger or h-bc.")],
+    algorithm: Annotated[str, typer.Argument(help="h-bc, hg-dagger, naive-h-dagger, flat-bc or flat-dagger.")],
     domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
     instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "random",
     preset: Annotated[str, typer.Option(help="The values of learning.")] = "paper",
     seed: Annotated[int, typer.Option(min=0, help="Fixes the run.")] = 0,
     episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 1000,
     warm_start: Annotated[int | None, typer.Option(min=0, help="Demonstrations first; the preset's if absent.")] = None,
+    redraw: Annotated[bool, typer.Option(help="Draw training instances until one fails, each episode.")] = False,
     expert: Annotated[str, typer.Option(help="Who answers: oracle (in this process) or queue.")] = "oracle",
     server: ServerOption = None,
     token: TokenOption = "",
@@ -81,7 +82,7 @@ def train(
         from learner import training
         from learner.config import TrainConfig
 
-        config = TrainConfig(algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start)
+        config = TrainConfig(algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw)
         training.build_learner(config, threads)  # says what is wrong before there is a store
         options = training.RunOptions(name, budget, resume, _checkpoint_folder(checkpoints, store, server), threads)
         with ExitStack() as stack:

@@ -1,4 +1,4 @@
-"""What fixes a run: with the answers, these values determine every query and every weight."""
+"""What fixes a run (with the answers, these values determine every query and every weight), and where one stands."""
 
 from dataclasses import dataclass
 
@@ -15,3 +15,12 @@ class TrainConfig:
     episodes: int = 1_000
     in_flight: int = 1  # episodes open at once; 1 is the paper's loop
     warm_start: int | None = None  # demonstrations before questions; the preset's number unless given
+    redraw: bool = False  # draw training instances until one fails, as the authors counted episodes
+
+
+@dataclass(frozen=True)
+class Progress:
+    """Where a run stands, between two episodes."""
+
+    episodes: int = 0  # applied
+    draws: int = 0  # training instances drawn; more than episodes where they are drawn until one fails

@@ -16,10 +16,11 @@ import numpy as np
 
 from learner.algorithms import Algorithm
 from learner.client import Client, Refused
-from learner.config import TrainConfig
+from learner.config import Progress, TrainConfig
 from learner.datasets import Labels
 from learner.domains.base import InstanceSets
-from learner.learner import TEST, Learner
+from learner.evaluation import attempt
+from learner.learner import TEST, TRAIN, Learner
 from learner.queries import Query
 from learner.rollout import run
 from learner.simulator import Simulator
@@ -30,6 +31,7 @@ from server import wire
 POLL_SECONDS = 30.0
 CHECKPOINT_EVERY = 25  # episodes
 _TRAIN_ORDER, _TEST_ORDER = 2, 3  # streams of randomness, beside those of the rollouts
+_LARGEST_BATCH = 64  # rollouts in step, when looking for one that fails
 
 
 @dataclass
@@ -63,8 +65,8 @@ class Driver:
         run_id: the run, already created.
         let_answer: called when queries may be open; an expert in this process answers them there.
         on_episode: called with each episode's result.
-        checkpoint: called with the number of episodes applied whenever the run can go on from there.
-        first_episode: where to go on, after a resumed checkpoint.
+        checkpoint: called with where the run stands whenever it can go on from there.
+        first: where to go on, after a resumed checkpoint.
     """
 
     def __init__(
@@ -77,17 +79,23 @@ class Driver:
         run_id: str,
         let_answer: Callable[[], None] = lambda: None,
         on_episode: Callable[[wire.EpisodeResult], None] = lambda _: None,
-        checkpoint: Callable[[int], None] = lambda _: None,
-        first_episode: int = 0,
+        checkpoint: Callable[[Progress], None] = lambda _: None,
+        first: Progress = Progress(),  # noqa: B008 (it never changes)
     ) -> None:
         self._config, self._algorithm, self._learner, self._instances = config, algorithm, learner, instances
         self._client, self._run_id = client, run_id
         self._let_answer, self._on_episode, self._checkpoint = let_answer, on_episode, checkpoint
         self._test_simulator = Simulator(learner.domain)
         self._open: deque[OpenEpisode] = deque()
-        self._next = self.applied = first_episode
+        self._next = self._applied = first.episodes
+        self._draws = first.draws
         self._cursor = 0
         self._clock = time.monotonic()
+
+    @property
+    def progress(self) -> Progress:
+        """Where the run stands."""
+        return Progress(self._applied, self._draws)
 
     def train(self) -> None:
         """Run to the last episode.
@@ -117,9 +125,11 @@ class Driver:
 
     def _start_episode(self, number: int) -> None:
         """Get a new environment instance and go to the first query."""
-        instance = _pick(self._instances.train, self._config.seed, _TRAIN_ORDER, number)
-        s = self._learner.start(instance, number)
         warm_start = number < self._warm_start
+        draw = self._draws if warm_start or not self._config.redraw else self._failing_draw()
+        self._draws = draw + 1
+        instance = self._train_instance(draw)
+        s = self._learner.start(instance, draw)
         generator = (self._algorithm.warm_start if warm_start else self._algorithm.episode)(s, self._learner)
         query = next(generator)
         simulator = self._learner.simulator
@@ -133,6 +143,24 @@ class Driver:
         )
         self._open.append(episode)
         self._ask(episode, query)
+
+    def _train_instance(self, draw: int) -> Any:
+        return _pick(self._instances.train, self._config.seed, _TRAIN_ORDER, draw)
+
+    def _failing_draw(self) -> int:
+        """Return the next draw on whose instance the present policies fail; the next one if none does in a whole lap.
+
+        Rollouts go in batches that grow while none fails.
+        """
+        first, size = self._draws, 2
+        while first < self._draws + len(self._instances.train):
+            draws = range(first, first + size)
+            instances = [self._train_instance(draw) for draw in draws]
+            for draw, success in zip(draws, attempt(self._learner, instances, TRAIN, draws), strict=True):
+                if not success:
+                    return draw
+            first, size = first + size, min(2 * size, _LARGEST_BATCH)
+        return self._draws
 
     @property
     def _warm_start(self) -> int:
@@ -204,9 +232,9 @@ class Driver:
         )
         self._clock = now
         self._client.report(self._run_id, [result])
-        self.applied += 1
-        if self.applied % CHECKPOINT_EVERY == 0:
-            self._checkpoint(self.applied)
+        self._applied += 1
+        if self._applied % CHECKPOINT_EVERY == 0:
+            self._checkpoint(self.progress)
         self._on_episode(result)
 
 

@@ -29,11 +29,16 @@ def evaluate(learner: Learner, instances: Sequence[Any], episodes: int) -> Evalu
     successes = 0
     for first in range(0, episodes, BATCH):
         numbers = range(first, min(first + BATCH, episodes))
-        simulators = [Simulator(learner.domain) for _ in numbers]
-        rollouts = [
-            learner.rollout(simulator, instances[number % len(instances)], TEST, number)
-            for simulator, number in zip(simulators, numbers, strict=True)
-        ]
-        run_all(rollouts, learner.policies)
-        successes += sum(simulator.succeeded for simulator in simulators)
+        successes += sum(attempt(learner, [instances[n % len(instances)] for n in numbers], TEST, numbers))
     return Evaluation(episodes, successes)
+
+
+def attempt(learner: Learner, instances: Sequence[Any], stream: int, numbers: Sequence[int]) -> list[bool]:
+    """Roll out on each instance, as rollouts of these numbers in a stream of randomness; return which succeed."""
+    simulators = [Simulator(learner.domain) for _ in instances]
+    rollouts = [
+        learner.rollout(simulator, instance, stream, number)
+        for simulator, instance, number in zip(simulators, instances, numbers, strict=True)
+    ]
+    run_all(rollouts, learner.policies)
+    return [simulator.succeeded for simulator in simulators]

@@ -30,7 +30,7 @@ class Learner:
         keys = [FLAT] if flat else [META, *range(len(domain.subgoals))]
         self.policies = {key: self._policy(key) for key in keys}
         self.data = {key: Dataset(domain.observation_shape) for key in keys}
-        self._episode = 0
+        self._draw = 0
         # One thread a policy: small networks gain nothing from threads within one operation. What each policy learns
         # depends on its own data and generator, so the number of threads changes nothing but the time.
         torch.set_num_threads(1)
@@ -38,23 +38,23 @@ class Learner:
 
     def _policy(self, key: PolicyKey) -> Policy:
         choices = len(self.domain.subgoals if key == META else self.domain.actions)
-        train = self.preset.train_hi if key == META else self.preset.train_lo
+        train = {META: self.preset.train_hi, FLAT: self.preset.train_flat}.get(key, self.preset.train_lo)
         seed = int(np.random.SeedSequence([self.seed, key + 2]).generate_state(1)[0])
         return Policy(self.domain.observation_shape, choices, key >= 0, self.preset.network, train, seed)
 
-    def start(self, instance: Any, episode: int) -> State:
-        """Put the simulator into the start state s of an instance."""
-        self._episode = episode
+    def start(self, instance: Any, draw: int) -> State:
+        """Put the simulator into the start state s of an instance, the run's `draw`-th."""
+        self._draw = draw
         return self.simulator.reset(instance)
 
     def roll_out(self, s: State) -> Trajectory:
         """Roll out the present policies from s, the start state that `start` returned."""
         del s  # the simulator is in it
-        return run(self.rollout(self.simulator, self.simulator.instance, TRAIN, self._episode), self.policies)
+        return run(self.rollout(self.simulator, self.simulator.instance, TRAIN, self._draw), self.policies)
 
-    def rollout(self, simulator: Simulator, instance: Any, stream: int, episode: int) -> Rollout:
-        """Return a rollout whose draws depend on the seed, the stream and the episode alone."""
-        rng = np.random.default_rng([self.seed, stream, episode])
+    def rollout(self, simulator: Simulator, instance: Any, stream: int, number: int) -> Rollout:
+        """Return a rollout whose choices depend on the seed, the stream and its number in it alone."""
+        rng = np.random.default_rng([self.seed, stream, number])
         roll_out = flat_rollout if self.flat else hierarchical_rollout
         return roll_out(simulator, instance, self.preset.choosing, rng)
 

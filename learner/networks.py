@@ -20,13 +20,21 @@ class Dropout(nn.Module):
     def __init__(self, rate: float, rng: torch.Generator) -> None:
         super().__init__()
         self.rate, self._rng = rate, rng
+        self._kept = round(256 * (1 - rate))
 
     def forward(self, x: torch.Tensor) -> torch.Tensor:
         """Zero entries at the rate and scale the others up, in training only."""
         if not self.training or self.rate == 0:
             return x
-        kept = torch.empty_like(x).bernoulli_(1 - self.rate, generator=self._rng)
-        return x * kept.div_(1 - self.rate)
+        # A random byte an entry is four times quicker to draw than a Bernoulli variable; it rounds the rate to 1/256.
+        kept = _random_bytes(x, self._rng) < self._kept
+        return x * kept * (256 / self._kept)
+
+
+def _random_bytes(like: torch.Tensor, rng: torch.Generator) -> torch.Tensor:
+    """Return uint8 of the shape and the memory layout of a tensor."""
+    words = torch.empty(-(-like.numel() // 8), dtype=torch.int64).random_(-(2**63), None, generator=rng)
+    return words.view(torch.uint8).as_strided(like.shape, like.stride())
 
 
 def build_network(
@@ -62,8 +70,8 @@ class ConvNet(nn.Sequential):
                 nn.Conv2d(channels, width, 3, padding="same"),
                 nn.ReLU(),
                 nn.Conv2d(width, width, 3, padding="valid"),
-                nn.ReLU(),
                 nn.MaxPool2d(2),
+                nn.ReLU(),  # after the pool it does the same to a quarter of the entries
                 Dropout(dropout, rng),
             ]
             channels, rows, columns = width, (rows - 2) // 2, (columns - 2) // 2

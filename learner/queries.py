@@ -11,9 +11,13 @@ from learner.types import Action, Segment, State, Subgoal, Trajectory
 
 @dataclass(frozen=True)
 class HierDemo:
-    """HierDemo(s): the expert's own hierarchical trajectory from s. Answer: `Trajectory`."""
+    """HierDemo(s): the expert's own hierarchical trajectory from s. Answer: `Trajectory`.
+
+    For a flat learner it is one segment without a subgoal.
+    """
 
     state: State
+    flat: bool = False
 
 
 @dataclass(frozen=True)

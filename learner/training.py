@@ -12,7 +12,7 @@ from learner import checkpoints
 from learner.algorithms import find_algorithm
 from learner.bot import Bot, BotSettings
 from learner.client import Client
-from learner.config import TrainConfig
+from learner.config import Progress, TrainConfig
 from learner.domains.base import InstanceSets, find_domain
 from learner.driver import BudgetExhausted, Driver
 from learner.evaluation import Evaluation, evaluate
@@ -83,12 +83,14 @@ def build_learner(config: TrainConfig, threads: int | None) -> tuple[Learner, In
     Raises:
         ValueError: a name that does not exist, or a file that is no set of instances.
     """
-    find_algorithm(config.algorithm)
+    algorithm = find_algorithm(config.algorithm)
+    if config.redraw and not algorithm.interactive:
+        raise ValueError(f"{config.algorithm} rolls nothing out, so there is nothing to draw again: leave out --redraw")
     preset = find_preset(config.preset)
     if config.warm_start is not None:
         preset = replace(preset, warm_start=config.warm_start)
     domain = find_domain(config.domain)
-    return Learner(domain, preset, config.seed, threads=threads), domain.instances(config.instances)
+    return Learner(domain, preset, config.seed, algorithm.flat, threads), domain.instances(config.instances)
 
 
 def train(
@@ -110,11 +112,11 @@ def train(
         OracleExpert(learner.domain)  # says so at once if the domain has none
     run = _run(config, learner, connection.learner, options)
     path = options.checkpoints / f"{run.id}.safetensors"
-    first = _resume(path, learner) if options.resume else 0
-    on_start(run, first)
+    first = _resume(path, learner) if options.resume else Progress()
+    on_start(run, first.episodes)
 
-    def save(episodes: int, weights_only: bool) -> None:
-        checkpoints.write(path, learner, checkpoints.Header(run.id, config, episodes), weights_only)
+    def save(progress: Progress, weights_only: bool) -> None:
+        checkpoints.write(path, learner, checkpoints.Header(run.id, config, progress), weights_only)
 
     driver = Driver(
         config,
@@ -133,7 +135,7 @@ def train(
         driver.train()
     except BudgetExhausted:
         ended = "budget exhausted"
-    save(driver.applied, weights_only=True)
+    save(driver.progress, weights_only=True)
     return _summary(config, learner, connection.learner, run.id, ended, time.monotonic() - began)
 
 
@@ -170,12 +172,12 @@ def _run(config: TrainConfig, learner: Learner, client: Client, options: RunOpti
     )
 
 
-def _resume(path: Path, learner: Learner) -> int:
-    """Load the run's checkpoint, if there is one, and return the episode to go on with."""
+def _resume(path: Path, learner: Learner) -> Progress:
+    """Load the run's checkpoint, if there is one, and return where to go on."""
     if not path.exists():
-        return 0
+        return Progress()
     checkpoints.load(path, learner)
-    return checkpoints.read_header(path).episodes
+    return checkpoints.read_header(path).progress
 
 
 def _answering(connection: Connection, run: str) -> Callable[[], None]:

@@ -41,12 +41,15 @@ class Translator:
             "instance": self.domain.instance_view(self.instance),
         }
         match query:
-            case HierDemo(state):
+            case HierDemo(state, flat):
                 horizons = self.domain.horizons
                 return wire.AskHierDemo(
                     kind="hier_demo",
-                    question="Carry out the whole task, one subgoal after the other.",
+                    question="Carry out the whole task."
+                    if flat
+                    else "Carry out the whole task, one subgoal after the other.",
                     state=state.view,
+                    flat=flat,
                     max_segments=horizons.hi,
                     max_actions=horizons.full,
                     **common,
@@ -129,7 +132,8 @@ class Translator:
                 actions.append(self.domain.actions.index(action))
                 states.append(simulator.step(actions[-1]))
             if actions:
-                sigma.append(Segment(self.domain.subgoals.index(segment.subgoal), tuple(states), tuple(actions), True))
+                subgoal = None if segment.subgoal is None else self.domain.subgoals.index(segment.subgoal)
+                sigma.append(Segment(subgoal, tuple(states), tuple(actions), terminated=subgoal is not None))
             state = states[-1]
         return tuple(sigma)
 

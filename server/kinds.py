@@ -79,31 +79,38 @@ class QueryKind(ABC, Generic[AskT, AnswerT]):
 
 
 class HierDemo(QueryKind[wire.AskHierDemo, wire.HierDemoAnswer]):
-    """Costs the HI and LO labels the demonstration yields."""
+    """Costs the labels the demonstration yields: HI and LO ones, or a flat one's actions alone."""
 
     def check_ask(self, ask: Any, words: Words, at: Location) -> None:  # noqa: ARG002 - kinds share a signature
-        """A demonstration names subgoals, so the run must have some."""
-        if not words.subgoals:
+        """A demonstration names subgoals, unless it is a flat one, so the run must have some."""
+        if not words.subgoals and not ask.flat:
             raise Unprocessable([*at, "kind"], "a run without subgoals cannot ask for a hierarchical demonstration")
 
     def check_answer(self, ask: wire.AskHierDemo, answer: wire.HierDemoAnswer, words: Words, at: Location) -> None:
-        """At most H_HI segments and H_FULL actions, all in the run's names."""
+        """At most H_HI segments and H_FULL actions, all in the run's names; a flat one is one segment without a name."""
+        if ask.flat and len(answer.segments) != 1:
+            raise Unprocessable([*at, "segments"], f"has {len(answer.segments)} segments; a flat demonstration has one")
         if len(answer.segments) > ask.max_segments:
             raise Unprocessable([*at, "segments"], f"has {len(answer.segments)} segments; at most {ask.max_segments}")
         if (total := sum(len(segment.actions) for segment in answer.segments)) > ask.max_actions:
             raise Unprocessable([*at, "segments"], f"has {total} actions in all; at most {ask.max_actions}")
         for place, segment in enumerate(answer.segments):
-            words.check_subgoal(segment.subgoal, [*at, "segments", place, "subgoal"])
+            name_at = [*at, "segments", place, "subgoal"]
+            if ask.flat != (segment.subgoal is None):
+                raise Unprocessable(name_at, "must be null in a flat demonstration" if ask.flat else "must not be null")
+            if segment.subgoal is not None:
+                words.check_subgoal(segment.subgoal, name_at)
             words.check_actions(segment.actions, [*at, "segments", place, "actions"])
 
     def cost(self, answer: wire.HierDemoAnswer, prices: wire.Prices) -> Cost:
-        """Per segment a subgoal, its actions and a termination."""
+        """Each action; and per segment with a subgoal that subgoal and a termination."""
         n_actions = sum(len(segment.actions) for segment in answer.segments)
-        return self._price(len(answer.segments), n_actions, prices)
+        return self._price(sum(segment.subgoal is not None for segment in answer.segments), n_actions, prices)
 
     def reserve(self, ask: wire.AskHierDemo, prices: wire.Prices) -> int:
         """The longest demonstration there may be; a segment has at least one action."""
-        return self._price(min(ask.max_segments, ask.max_actions), ask.max_actions, prices).units
+        n_segments = 0 if ask.flat else min(ask.max_segments, ask.max_actions)
+        return self._price(n_segments, ask.max_actions, prices).units
 
     def _price(self, n_segments: int, n_actions: int, prices: wire.Prices) -> Cost:
         lo = n_actions * to_micro(prices.action) + n_segments * to_micro(prices.termination)

@@ -36,12 +36,12 @@ class Message(BaseModel):
 class DemoSegment(Message):
     """One segment of a demonstration; its states follow from the actions."""
 
-    subgoal: Name
+    subgoal: Name | None = Field(description="The subgoal carried out; null in a flat demonstration.")
     actions: list[Name] = Field(min_length=1, max_length=10_000)
 
 
 class HierDemoAnswer(Message):
-    """The expert's own hierarchical trajectory; each segment ends where its subgoal is reached."""
+    """The expert's own trajectory: hierarchical, each segment ending where its subgoal is reached; or flat, one segment."""
 
     kind: Literal["hier_demo"]
     segments: list[DemoSegment] = Field(min_length=1, max_length=10_000)
@@ -114,10 +114,11 @@ class AskBase(Message):
 
 
 class AskHierDemo(AskBase):
-    """HierDemo(s): carry out the task from state s and return the hierarchical trajectory."""
+    """HierDemo(s): carry out the task from state s and return the hierarchical trajectory, or a flat learner's."""
 
     kind: Literal["hier_demo"]
     state: JsonValue = Field(description="s, where the demonstration starts.")
+    flat: bool = Field(default=False, description="Only actions are wanted: one segment without a subgoal.")
     max_segments: int = Field(ge=1, le=10_000, description="H_HI: a demonstration has at most so many segments.")
     max_actions: int = Field(ge=1, le=10_000, description="H_FULL: and at most so many actions in all.")
 

@@ -4,8 +4,11 @@ from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any
 
+from learner.algorithms.flat_bc import flat_bc
+from learner.algorithms.flat_dagger import flat_dagger
 from learner.algorithms.h_bc import h_bc
 from learner.algorithms.hg_dagger import hg_dagger
+from learner.algorithms.naive_h_dagger import naive_h_dagger
 from learner.datasets import Labels
 from learner.learner import Learner
 from learner.queries import Query
@@ -20,11 +23,20 @@ class Algorithm:
 
     warm_start: Episode
     episode: Episode
+    flat: bool = False  # whether the learner has one flat policy
+
+    @property
+    def interactive(self) -> bool:
+        """Whether the learner rolls its policies out after the warm start."""
+        return self.episode is not self.warm_start
 
 
 ALGORITHMS = {
     "h-bc": Algorithm(warm_start=h_bc, episode=h_bc),
     "hg-dagger": Algorithm(warm_start=h_bc, episode=hg_dagger),
+    "naive-h-dagger": Algorithm(warm_start=h_bc, episode=naive_h_dagger),
+    "flat-bc": Algorithm(warm_start=flat_bc, episode=flat_bc, flat=True),
+    "flat-dagger": Algorithm(warm_start=flat_bc, episode=flat_dagger, flat=True),
 }
 
 

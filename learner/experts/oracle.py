@@ -29,7 +29,8 @@ class OracleExpert:
         """Answer one query."""
         match ask:
             case wire.AskHierDemo():
-                return self._hier_demo(ask.instance, ask.state)
+                demonstration = self._hier_demo(ask.instance, ask.state)
+                return _flattened(demonstration) if ask.flat else demonstration
             case wire.AskInspectFull():
                 succeeded = self._oracle.succeeded(ask.instance, ask.segments[-1].states[-1])
                 return _verdict(ask.kind, succeeded)
@@ -106,6 +107,11 @@ class OracleExpert:
 def _preferring(own: int, good: Sequence[int]) -> int:
     """Return the learner's own choice if it is among the good ones, else the best."""
     return own if own in good else good[0]
+
+
+def _flattened(demonstration: wire.HierDemoAnswer) -> wire.HierDemoAnswer:
+    actions = [action for segment in demonstration.segments for action in segment.actions]
+    return wire.HierDemoAnswer(kind="hier_demo", segments=[wire.DemoSegment(subgoal=None, actions=actions)])
 
 
 def _verdict(kind: Any, passed: bool) -> wire.InspectAnswer:

@@ -15,5 +15,6 @@ class Preset:
     network: NetworkSpec
     train_hi: TrainSpec
     train_lo: TrainSpec
+    train_flat: TrainSpec
     choosing: Choosing
     symmetries: bool = False  # whether each label is also learned from in the domain's other symmetries

@@ -10,6 +10,7 @@ DEMO = Preset(
     network=NetworkSpec(channels=(16, 32), hidden=128),
     train_hi=TrainSpec(learning_rate=1e-3, batch=32, passes=2, most=4096, dropout=0.3),
     train_lo=TrainSpec(learning_rate=1e-3, batch=32, passes=1, least=2048, dropout=0.3),
+    train_flat=TrainSpec(learning_rate=1e-3, batch=32, passes=1, least=2048, most=4096, dropout=0.3),
     choosing=Choosing(temperature=0.1, termination_threshold=0.9),
     symmetries=True,
 )

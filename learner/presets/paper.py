@@ -8,7 +8,8 @@ from learner.rollout import Choosing
 PAPER = Preset(
     warm_start=200,
     network=NetworkSpec(channels=(32, 64), hidden=256),
-    train_hi=TrainSpec(learning_rate=5e-4, batch=32, passes=2, dropout=0.5),
-    train_lo=TrainSpec(learning_rate=5e-4, batch=32, passes=1, dropout=0.5),
+    train_hi=TrainSpec(learning_rate=5e-4, batch=32, passes=2, least=1024, most=6144, dropout=0.5),
+    train_lo=TrainSpec(learning_rate=5e-4, batch=32, passes=1, least=1024, most=1024, dropout=0.5),
+    train_flat=TrainSpec(learning_rate=5e-4, batch=32, passes=1, least=1024, most=8192, dropout=0.5),
     choosing=Choosing(temperature=0.1, termination_threshold=0.9),
 )

@@ -27,6 +27,7 @@ TINY = Preset(
     network=NetworkSpec(channels=(4, 4), hidden=16),
     train_hi=TINY_TRAIN,
     train_lo=TINY_TRAIN,
+    train_flat=TINY_TRAIN,
     choosing=Choosing(temperature=0.5, termination_threshold=0.9),
 )
 """A preset for runs of a second, in which policies make all kinds of mistakes."""

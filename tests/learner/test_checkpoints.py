@@ -102,7 +102,7 @@ def test_the_header_comes_back_as_it_was(path: Path) -> None:
 def test_a_checkpoint_replaces_the_one_before_and_leaves_nothing_else_behind(path: Path) -> None:
     for episodes in (1, 2):
         checkpoints.write(path, trained(episodes), Header("a-run", HEADER.config, episodes), weights_only=False)
-    assert checkpoints.read_header(path).episodes == 2
+    assert checkpoints.read_header(path).progress == Progress(2, 2)
     assert list(path.parent.iterdir()) == [path]
 
 
