@@ -45,9 +45,7 @@ class Translator:
                 horizons = self.domain.horizons
                 return wire.AskHierDemo(
                     kind="hier_demo",
-                    question="Carry out the whole task."
-                    if flat
-                    else "Carry out the whole task, one subgoal after the other.",
+                    question=f"Carry out the whole task{how}",
                     state=state.view,
                     flat=flat,
                     max_segments=horizons.hi,

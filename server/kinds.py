@@ -81,13 +81,13 @@ class QueryKind(ABC, Generic[AskT, AnswerT]):
 class HierDemo(QueryKind[wire.AskHierDemo, wire.HierDemoAnswer]):
     """Costs the labels the demonstration yields: HI and LO ones, or a flat one's actions alone."""
 
-    def check_ask(self, ask: Any, words: Words, at: Location) -> None:  # noqa: ARG002 - kinds share a signature
+    def check_ask(self, ask: Any, words: Words, at: Location) -> None:
         """A demonstration names subgoals, unless it is a flat one, so the run must have some."""
         if not words.subgoals and not ask.flat:
             raise Unprocessable([*at, "kind"], "a run without subgoals cannot ask for a hierarchical demonstration")
 
     def check_answer(self, ask: wire.AskHierDemo, answer: wire.HierDemoAnswer, words: Words, at: Location) -> None:
-        """At most H_HI segments and H_FULL actions, all in the run's names; a flat one is one segment without a name."""
+        """At most H_HI segments and H_FULL actions, in the run's names; a flat one is one segment without a subgoal."""
         if ask.flat and len(answer.segments) != 1:
             raise Unprocessable([*at, "segments"], f"has {len(answer.segments)} segments; a flat demonstration has one")
         if len(answer.segments) > ask.max_segments:

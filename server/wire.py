@@ -41,7 +41,7 @@ class DemoSegment(Message):
 
 
 class HierDemoAnswer(Message):
-    """The expert's own trajectory: hierarchical, each segment ending where its subgoal is reached; or flat, one segment."""
+    """The expert's own trajectory: hierarchical, each segment ending where its subgoal is reached; or one flat one."""
 
     kind: Literal["hier_demo"]
     segments: list[DemoSegment] = Field(min_length=1, max_length=10_000)

@@ -11,14 +11,14 @@ from safetensors.torch import save_file
 
 from learner import checkpoints
 from learner.checkpoints import Header, weights_hash
-from learner.config import TrainConfig
+from learner.config import Progress, TrainConfig
 from learner.datasets import UNLABELED, Labels, Row
 from learner.domains.corridor import CorridorDomain
 from learner.learner import Learner
 from learner.types import META
 from tests.learner.kit import TINY
 
-HEADER = Header("a-run", TrainConfig("hg-dagger", domain="corridor", in_flight=2, warm_start=5), episodes=7)
+HEADER = Header("a-run", TrainConfig("hg-dagger", domain="corridor", in_flight=2, warm_start=5), Progress(7, 9))
 
 
 def learner(seed: int = 0) -> Learner:
@@ -101,7 +101,9 @@ def test_the_header_comes_back_as_it_was(path: Path) -> None:
 
 def test_a_checkpoint_replaces_the_one_before_and_leaves_nothing_else_behind(path: Path) -> None:
     for episodes in (1, 2):
-        checkpoints.write(path, trained(episodes), Header("a-run", HEADER.config, episodes), weights_only=False)
+        checkpoints.write(
+            path, trained(episodes), Header("a-run", HEADER.config, Progress(episodes, episodes)), weights_only=False
+        )
     assert checkpoints.read_header(path).progress == Progress(2, 2)
     assert list(path.parent.iterdir()) == [path]
 

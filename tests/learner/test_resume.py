@@ -127,7 +127,7 @@ def test_a_finished_run_leaves_a_checkpoint_of_its_weights(tmp_path: Path) -> No
     with store(tmp_path) as (connection, options):
         summary = train(corridor(episodes=5), connection, options)
     header = read_header(options.checkpoints / f"{summary['run']}.safetensors")
-    assert (header.run, header.episodes, header.config) == (summary["run"], 5, corridor(episodes=5))
+    assert (header.run, header.progress.episodes, header.config) == (summary["run"], 5, corridor(episodes=5))
 
 
 def test_a_killed_waypost_train_resumed_reaches_the_weights_and_the_ledger_of_an_uninterrupted_one(
@@ -152,7 +152,7 @@ def test_a_killed_waypost_train_resumed_reaches_the_weights_and_the_ledger_of_an
     done = subprocess.run([sys.executable, "-c", script, *values, "--store", killed], env=env, capture_output=True)
     assert done.returncode == -signal.SIGKILL, done.stderr.decode()
     (checkpoint,) = (tmp_path / "killed.db.checkpoints").iterdir()
-    assert read_header(checkpoint).episodes in (4, 8)
+    assert read_header(checkpoint).progress.episodes in (4, 8)
 
     resumed = CliRunner().invoke(app, [*values, "--store", killed, "--resume", "--json"])
     uninterrupted = CliRunner().invoke(app, [*values, "--store", whole, "--json"])
