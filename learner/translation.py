@@ -43,6 +43,7 @@ class Translator:
         match query:
             case HierDemo(state, flat):
                 horizons = self.domain.horizons
+                how = "." if flat else ", one subgoal after the other."
                 return wire.AskHierDemo(
                     kind="hier_demo",
                     question=f"Carry out the whole task{how}",

@@ -1,5 +1,6 @@
 """Checkpoints hold all of a learner, are never torn, and are refused with a sentence when they are none."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from learner.config import Progress, TrainConfig
 from learner.datasets import UNLABELED, Labels, Row
 from learner.domains.corridor import CorridorDomain
 from learner.learner import Learner
+from learner.networks import NetworkSpec
 from learner.types import META
 from tests.learner.kit import TINY
 
@@ -159,7 +161,7 @@ def test_a_folder_is_refused_with_a_sentence(tmp_path: Path) -> None:
 
 def test_a_checkpoint_of_other_networks_is_refused_with_a_sentence(path: Path) -> None:
     checkpoints.write(path, learner(), HEADER, weights_only=True)
-    larger = type(TINY)(0, type(TINY.network)((4,), 99), TINY.train_hi, TINY.train_lo, TINY.choosing)
+    larger = replace(TINY, network=NetworkSpec((4,), 99))
     with pytest.raises(ValueError, match="does not fit"):
         checkpoints.load(path, Learner(CorridorDomain(), larger, 0, threads=1))
 
