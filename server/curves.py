@@ -62,6 +62,12 @@ def _tests(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:
     return [row.episode for row in rows], [row.test_success for row in rows]
 
 
+def _results(tx: Tx, run: str) -> list[wire.EpisodeResult]:
+    """Return the reported episodes with all that was reported of them."""
+    rows = tx.conn.execute(select(episodes.c.result).where(episodes.c.run_id == run).order_by(episodes.c.episode))
+    return [wire.EpisodeResult.model_validate_json(row.result) for row in rows]
+
+
 def _cumulative(reported: Sequence[int], amounts: Iterable[tuple[int, float]]) -> list[float]:
     """Return the running sum at each reported episode, of amounts in episode order."""
     sums: list[float] = []
@@ -79,7 +85,8 @@ def _cumulative(reported: Sequence[int], amounts: Iterable[tuple[int, float]]) -
 def curves(tx: Tx, run: str) -> wire.Curves:
     """Return success and cumulative cost, a row per reported episode."""
     runs.find(tx, run)
-    reported, tests = _tests(tx, run)
+    results = _results(tx, run)
+    reported, tests = [result.episode for result in results], [result.test_success for result in results]
     spent = _ledger(tx, run)
     by_kind: dict[wire.Kind, list[tuple[int, float]]] = defaultdict(list)
     for entry in spent:
@@ -92,6 +99,9 @@ def curves(tx: Tx, run: str) -> wire.Curves:
         lo_cost=_units(_cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent))),
         seconds=_cumulative(reported, ((entry.episode, entry.seconds) for entry in spent)),
         cost_by_kind={kind: _units(_cumulative(reported, by_kind[kind])) for kind in KINDS},
+        hi_labels=[result.hi_labels for result in results],
+        lo_samples=list(accumulate(result.train_steps for result in results)),
+        learner_seconds=list(accumulate(result.seconds for result in results)),
     )
 
 

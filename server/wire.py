@@ -304,7 +304,7 @@ class EpisodeList(Message):
 
 
 class Curves(Message):
-    """Columns of equal length, a row per reported episode; costs are cumulative up to and with that episode."""
+    """Columns of equal length, a row per reported episode; sums are cumulative up to and with that episode."""
 
     episode: list[int]
     success_rate: list[float | None] = Field(description="Over the trailing 100 test episodes (fewer at the start).")
@@ -313,6 +313,9 @@ class Curves(Message):
     lo_cost: list[float] = Field(description="Units spent on LO labels: actions and terminations.")
     seconds: list[float] = Field(description="Annotators' seconds.")
     cost_by_kind: dict[Kind, list[float]]
+    hi_labels: list[int] = Field(description="Size of D_HI.")
+    lo_samples: list[int] = Field(description="LO-level steps taken in training rollouts.")
+    learner_seconds: list[float] = Field(description="The learner's wall time.")
 
 
 class Milestone(Message):

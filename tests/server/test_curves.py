@@ -72,6 +72,16 @@ def test_curves_join_episodes_with_the_ledger(service: Service) -> None:
     assert costs["first_at"] == {"0.8": None, "0.9": None, "0.95": None, "0.99": None}
 
 
+def test_curves_carry_what_the_learner_reported_of_itself(service: Service) -> None:
+    run = service.learner.create_run()
+    warm = result(0, hi_labels=12, train_steps=0, seconds=1.5)
+    report(service, run, warm, result(1, None, hi_labels=12, train_steps=100), result(3, hi_labels=20, train_steps=44))
+    curves = service.viewer.get(f"/runs/{run}/curves")
+    assert curves["hi_labels"] == [12, 12, 20]
+    assert curves["lo_samples"] == [0, 100, 144]
+    assert curves["learner_seconds"] == [1.5, 2, 2.5]
+
+
 def test_the_run_shows_its_trailing_success(service: Service) -> None:
     run = service.learner.create_run()
     report(service, run, *(result(n, n >= 150) for n in range(200)), result(200, None))

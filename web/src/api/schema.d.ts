@@ -533,7 +533,7 @@ export interface components {
         };
         /**
          * AskHierDemo
-         * @description HierDemo(s): carry out the task from state s and return the hierarchical trajectory.
+         * @description HierDemo(s): carry out the task from state s and return the hierarchical trajectory, or a flat learner's.
          */
         AskHierDemoInput: {
             /**
@@ -571,6 +571,12 @@ export interface components {
             /** @description s, where the demonstration starts. */
             state: components["schemas"]["JsonValue"];
             /**
+             * Flat
+             * @description Only actions are wanted: one segment without a subgoal.
+             * @default false
+             */
+            flat: boolean;
+            /**
              * Max Segments
              * @description H_HI: a demonstration has at most so many segments.
              */
@@ -583,7 +589,7 @@ export interface components {
         };
         /**
          * AskHierDemo
-         * @description HierDemo(s): carry out the task from state s and return the hierarchical trajectory.
+         * @description HierDemo(s): carry out the task from state s and return the hierarchical trajectory, or a flat learner's.
          */
         AskHierDemo: {
             /**
@@ -620,6 +626,12 @@ export interface components {
             kind: "hier_demo";
             /** @description s, where the demonstration starts. */
             state: components["schemas"]["JsonValue"];
+            /**
+             * Flat
+             * @description Only actions are wanted: one segment without a subgoal.
+             * @default false
+             */
+            flat: boolean;
             /**
              * Max Segments
              * @description H_HI: a demonstration has at most so many segments.
@@ -1122,7 +1134,7 @@ export interface components {
         };
         /**
          * Curves
-         * @description Columns of equal length, a row per reported episode; costs are cumulative up to and with that episode.
+         * @description Columns of equal length, a row per reported episode; sums are cumulative up to and with that episode.
          */
         Curves: {
             /** Episode */
@@ -1150,14 +1162,32 @@ export interface components {
             cost_by_kind: {
                 [key: string]: number[];
             };
+            /**
+             * Hi Labels
+             * @description Size of D_HI.
+             */
+            hi_labels: number[];
+            /**
+             * Lo Samples
+             * @description LO-level steps taken in training rollouts.
+             */
+            lo_samples: number[];
+            /**
+             * Learner Seconds
+             * @description The learner's wall time.
+             */
+            learner_seconds: number[];
         };
         /**
          * DemoSegment
          * @description One segment of a demonstration; its states follow from the actions.
          */
         DemoSegment: {
-            /** Subgoal */
-            subgoal: string;
+            /**
+             * Subgoal
+             * @description The subgoal carried out; null in a flat demonstration.
+             */
+            subgoal: string | null;
             /** Actions */
             actions: string[];
         };
@@ -1247,7 +1277,7 @@ export interface components {
         };
         /**
          * HierDemoAnswer
-         * @description The expert's own hierarchical trajectory; each segment ends where its subgoal is reached.
+         * @description The expert's own trajectory: hierarchical, each segment ending where its subgoal is reached; or one flat one.
          */
         HierDemoAnswer: {
             /**
