@@ -5,8 +5,7 @@ use them, so that the base installation can serve.
 """
 
 import json
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,11 +14,9 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from learner.commands import PatienceOption, ServerOption, TokenOption, learner_errors, needed
 from server import cli as server_cli
 from server.cli import JsonOption, refuse
-from server.database import BadDatabase
-from server.schema import NewerStore
-from server.serving import CannotServe
 from server.wire import EpisodeResult, Receipt, Run
 
 app = typer.Typer(
@@ -30,18 +27,10 @@ app = typer.Typer(
 )
 app.add_typer(server_cli.app)
 
-ServerOption = Annotated[str | None, typer.Option("--server", help="A running server, such as http://127.0.0.1:8000.")]
-TokenOption = Annotated[
-    str,
-    typer.Option("--token", envvar="WAYPOST_TOKEN", help="An API token (`waypost token create`).", show_default=False),
-]
 StoreOption = Annotated[Path | None, typer.Option("--store", help="An SQLite file; it is created if it is not there.")]
 CheckpointsOption = Annotated[
     Path | None,
     typer.Option(help="Folder of checkpoints; beside the store, or ./checkpoints with a server."),
-]
-PatienceOption = Annotated[
-    float, typer.Option(min=0, help="How long to go on when the server does not answer, seconds.")
 ]
 ThreadsOption = Annotated[
     int | None, typer.Option(min=1, help="Processor threads to train with; it changes nothing but the time.")
@@ -78,7 +67,7 @@ def train(
         refuse("With --expert queue others answer at a server: give its address with --server URL.")
     if server is not None and store is not None:
         refuse("The server keeps the store: give either --server or --store.")
-    with _learner_errors():
+    with learner_errors("Interrupted; `--resume` goes on from the last checkpoint."):
         from learner import training
         from learner.config import TrainConfig
 
@@ -87,7 +76,7 @@ def train(
         options = training.RunOptions(name, budget, resume, _checkpoint_folder(checkpoints, store, server), threads)
         with ExitStack() as stack:
             connection = stack.enter_context(
-                training.remote(server, _needed(token), expert == "oracle", patience)
+                training.remote(server, needed(token), expert == "oracle", patience)
                 if server is not None
                 else training.embedded(store or Path("waypost.db"))
             )
@@ -108,7 +97,7 @@ def evaluate(
     as_json: JsonOption = False,
 ) -> None:
     """Measure the success of a run's policy on unseen or given instances."""
-    with _learner_errors():
+    with learner_errors():
         from learner import training
 
         path = _checkpoint_folder(checkpoints, store, server) / f"{run}.safetensors"
@@ -133,11 +122,11 @@ def oracle(
 ) -> None:
     """Answer queries with the oracle of their domain, until interrupted."""
     chosen = _kinds(kinds)
-    with _learner_errors():
+    with learner_errors():
         from learner.bot import Bot, BotSettings
         from learner.client import Client
 
-        client = Client(server, _needed(token), patience=patience)
+        client = Client(server, needed(token), patience=patience)
         bot = Bot(client, BotSettings(run, chosen, error_rate, seconds, defer, seed))
         answers, units = 0, 0.0
 
@@ -165,7 +154,7 @@ def demo(
     instances: Annotated[str, typer.Option(help="The mazes: random or corners.")] = "corners",
 ) -> None:
     """Show it all on this machine: a server, a learner and a bot; prints a link that logs you in."""
-    with _learner_errors():
+    with learner_errors():
         from learner.demo import run_demo
 
         run_demo(port, database, episodes, instances)
@@ -177,40 +166,6 @@ def main() -> None:
 
 
 # --- what the commands share
-
-
-@contextmanager
-def _learner_errors() -> Iterator[None]:
-    """Turn what can go wrong into one sentence: exit 2 for wrong usage, 1 for what failed."""
-    try:
-        yield
-    except ModuleNotFoundError as error:
-        refuse(f"This needs the package {error.name}: install the learner with `pip install 'waypost[learner]'`.")
-    except (ValueError, BadDatabase, NewerStore, CannotServe) as error:
-        refuse(_sentence(error))
-    except KeyboardInterrupt:
-        typer.echo("Interrupted; `--resume` goes on from the last checkpoint.", err=True)
-        raise typer.Exit(130) from None
-    except Exception as error:
-        from learner.client import Refused, Unreachable
-
-        if isinstance(error, Refused | Unreachable):
-            typer.echo(_sentence(error), err=True)
-            raise typer.Exit(1) from None
-        raise
-
-
-def _sentence(error: Exception) -> str:
-    text = str(error)
-    if text.split(maxsplit=1)[0].isalpha():  # not the name of a file
-        text = text[:1].upper() + text[1:]
-    return text if text.endswith((".", "?")) else f"{text}."
-
-
-def _needed(token: str) -> str:
-    if not token:
-        refuse("The server wants a token: give --token or set WAYPOST_TOKEN (`waypost token create USER` makes one).")
-    return token
 
 
 def _checkpoint_folder(given: Path | None, store: Path | None, server: str | None) -> Path:
