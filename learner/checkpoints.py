@@ -1,7 +1,8 @@
 """Checkpoints: everything a learner is, in one safetensors file, written so that it is never torn.
 
 Tensors: `policy.KEY.NAME` (weights), and while a run is under way also `optimizer.KEY.INDEX.NAME`, `data.KEY.*` (the
-buffers) and `rng.KEY`. What else must be known is JSON in the file's metadata. No code is stored, so none can run.
+buffers) and `rng.KEY`; for a Q-function `target.KEY.NAME` and `counts.KEY` (steps, updates) too. What else must be
+known is JSON in the file's metadata. No code is stored, so none can run.
 """
 
 import hashlib
@@ -80,12 +81,17 @@ def load(path: Path, learner: Learner) -> None:
             policy.network.load_state_dict(_below(tensors, f"policy.{key}."))
         except RuntimeError as error:
             raise ValueError(f"{path} does not fit the networks that this version of Waypost builds") from error
-        optimizer = _below(tensors, f"optimizer.{key}.")
-        if optimizer:
-            _load_optimizer(policy.optimizer, optimizer)
         if f"rng.{key}" in tensors:
             policy.rng.set_state(tensors[f"rng.{key}"])
+            _load_optimizer(policy.optimizer, _below(tensors, f"optimizer.{key}."))
+    for key in learner.imitators:
+        if f"rng.{key}" in tensors:
             learner.data[key] = Dataset.of(tensors[f"data.{key}.observations"], tensors[f"data.{key}.labels"])
+    for key, q in learner.q.items():
+        if f"rng.{key}" in tensors:
+            q.target.load_state_dict(_below(tensors, f"target.{key}."))
+            q.replay.load(_below(tensors, f"data.{key}."))
+            q.steps, q.updates = tensors[f"counts.{key}"].tolist()
 
 
 def weights_hash(learner: Learner) -> str:
@@ -109,8 +115,12 @@ def _training_state(learner: Learner) -> Tensors:
         for index, state in policy.optimizer.state_dict()["state"].items():
             tensors |= {f"optimizer.{key}.{index}.{name}": tensor for name, tensor in state.items()}
         tensors[f"rng.{key}"] = policy.rng.get_state()
-        tensors[f"data.{key}.observations"] = learner.data[key].observations
-        tensors[f"data.{key}.labels"] = learner.data[key].labels
+    for key, data in learner.data.items():
+        tensors |= {f"data.{key}.observations": data.observations, f"data.{key}.labels": data.labels}
+    for key, q in learner.q.items():
+        tensors |= {f"target.{key}.{name}": tensor for name, tensor in q.target.state_dict().items()}
+        tensors |= {f"data.{key}.{name}": tensor for name, tensor in q.replay.tensors().items()}
+        tensors[f"counts.{key}"] = torch.tensor([q.steps, q.updates])
     return tensors
 
 

@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from learner.commands import PatienceOption, ServerOption, TokenOption, learner_errors, needed
+from learner.experiments import cli as experiments_cli
 from server import cli as server_cli
 from server.cli import JsonOption, refuse
 from server.wire import EpisodeResult, Receipt, Run
@@ -26,6 +27,7 @@ app = typer.Typer(
     help="Waypost: interactive labeling for hierarchical imitation learning.",
 )
 app.add_typer(server_cli.app)
+app.add_typer(experiments_cli.app)
 
 StoreOption = Annotated[Path | None, typer.Option("--store", help="An SQLite file; it is created if it is not there.")]
 CheckpointsOption = Annotated[
@@ -39,7 +41,7 @@ ThreadsOption = Annotated[
 
 @app.command()
 def train(
-    algorithm: Annotated[str, typer.Argument(help="h-bc, hg-dagger, naive-h-dagger, flat-bc or flat-dagger.")],
+    algorithm: Annotated[str, typer.Argument(help="hg-dagger, h-bc or another; a wrong name lists all.")],
     domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
     instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "random",
     preset: Annotated[str, typer.Option(help="The values of learning.")] = "paper",
@@ -47,6 +49,7 @@ def train(
     episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 1000,
     warm_start: Annotated[int | None, typer.Option(min=0, help="Demonstrations first; the preset's if absent.")] = None,
     redraw: Annotated[bool, typer.Option(help="Draw training instances until one fails, each episode.")] = False,
+    head_start: Annotated[float | None, typer.Option(help="Share of an optimal trajectory done beforehand.")] = None,
     expert: Annotated[str, typer.Option(help="Who answers: oracle (in this process) or queue.")] = "oracle",
     server: ServerOption = None,
     token: TokenOption = "",
@@ -71,7 +74,9 @@ def train(
         from learner import training
         from learner.config import TrainConfig
 
-        config = TrainConfig(algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw)
+        config = TrainConfig(
+            algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start
+        )
         training.build_learner(config, threads)  # says what is wrong before there is a store
         options = training.RunOptions(name, budget, resume, _checkpoint_folder(checkpoints, store, server), threads)
         with ExitStack() as stack:
@@ -218,7 +223,8 @@ class _TrainingProgress:
     def start(self, run: Run, first: int) -> None:
         self._task = self._bar.add_task(f"run {run.id}", total=self.episodes, completed=first)
 
-    def episode(self, result: EpisodeResult) -> None:
+    def episode(self, result: EpisodeResult, units: float) -> None:
+        del units
         self._tests = [*self._tests, bool(result.test_success)][-100:]
         rate = sum(self._tests) / len(self._tests)
         self._bar.update(self._task, advance=1, description=f"success {rate:.0%} (trailing {len(self._tests)})")

@@ -16,6 +16,7 @@ class TrainConfig:
     in_flight: int = 1  # episodes open at once; 1 is the paper's loop
     warm_start: int | None = None  # demonstrations before questions; the preset's number unless given
     redraw: bool = False  # draw training instances until one fails, as the authors counted episodes
+    head_start: float | None = None  # this share of an optimal trajectory is carried out before the learner begins
 
 
 @dataclass(frozen=True)

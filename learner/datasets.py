@@ -12,6 +12,7 @@ import numpy as np
 import torch
 
 from learner.domains.base import Symmetry
+from learner.experience import Transition
 from learner.queries import LoLabels
 from learner.types import FLAT, META, Action, PolicyKey, Segment, Subgoal, Trajectory
 
@@ -69,9 +70,10 @@ class Dataset:
 
 @dataclass
 class Labels:
-    """What one episode taught: new rows for the buffers, by policy."""
+    """What one episode taught: new rows and transitions for the buffers, by policy."""
 
     rows: dict[PolicyKey, list[Row]] = field(default_factory=dict)
+    transitions: dict[PolicyKey, list[Transition]] = field(default_factory=dict)
 
     def append_hi(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> None:
         """D_HI <- D_HI + {(s_h, g*_h)}."""
@@ -97,6 +99,10 @@ class Labels:
             terminations = (*(False for _ in segment.actions), True)
             self.append_lo(segment, LoLabels(segment.actions, terminations))
         self.append_hi(demonstration, [s.subgoal for s in demonstration if s.subgoal is not None])
+
+    def append_experience(self, key: PolicyKey, transitions: Iterable[Transition]) -> None:
+        """D_g <- D_g + tau_h (Algorithm 3, lines 20 and 22): what Q_g, or another Q-function, learns from."""
+        self.transitions.setdefault(key, []).extend(transitions)
 
     def seen_through(self, symmetry: Symmetry) -> "Labels":
         """Return what the same labels say of the changed picture."""

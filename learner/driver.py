@@ -10,6 +10,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -23,14 +24,13 @@ from learner.evaluation import attempt
 from learner.learner import TEST, TRAIN, Learner
 from learner.queries import Query
 from learner.rollout import run
-from learner.simulator import Simulator
 from learner.translation import Translator
 from learner.types import FLAT, META
 from server import wire
 
 POLL_SECONDS = 30.0
 CHECKPOINT_EVERY = 25  # episodes
-_TRAIN_ORDER, _TEST_ORDER = 2, 3  # streams of randomness, beside those of the rollouts
+_TRAIN_ORDER, _TEST_ORDER, _VARIATION = 2, 3, 4  # streams of randomness, beside those of the rollouts
 _LARGEST_BATCH = 64  # rollouts in step, when looking for one that fails
 
 
@@ -41,12 +41,20 @@ class OpenEpisode:
     number: int
     translator: Translator
     generator: Generator[Query, Any, Labels]
-    warm_start: bool
-    success: bool | None
-    steps: int
+    steps: int = 0  # of the learner's rollout; none in a demonstration
+    success: bool | None = None
     ordinal: int = 0
     pending: int | None = None  # the query it waits for
+    units: float = 0  # what its answers cost
     labels: Labels | None = None  # what it taught, once it is over
+
+    def resume(self, going_on: Callable[[], Query]) -> Query | None:
+        """Let the algorithm go on to its next query; None at its end."""
+        try:
+            return going_on()
+        except StopIteration as over:
+            self.labels = over.value
+            return None
 
 
 class BudgetExhausted(Exception):
@@ -64,7 +72,7 @@ class Driver:
         client: the queue, as a learner.
         run_id: the run, already created.
         let_answer: called when queries may be open; an expert in this process answers them there.
-        on_episode: called with each episode's result.
+        on_episode: called with each episode's result and what its answers cost, in units.
         checkpoint: called with where the run stands whenever it can go on from there.
         first: where to go on, after a resumed checkpoint.
     """
@@ -78,14 +86,16 @@ class Driver:
         client: Client,
         run_id: str,
         let_answer: Callable[[], None] = lambda: None,
-        on_episode: Callable[[wire.EpisodeResult], None] = lambda _: None,
+        on_episode: Callable[[wire.EpisodeResult, float], None] = lambda _result, _units: None,
         checkpoint: Callable[[Progress], None] = lambda _: None,
         first: Progress = Progress(),  # noqa: B008 (it never changes)
     ) -> None:
         self._config, self._algorithm, self._learner, self._instances = config, algorithm, learner, instances
         self._client, self._run_id = client, run_id
         self._let_answer, self._on_episode, self._checkpoint = let_answer, on_episode, checkpoint
-        self._test_simulator = Simulator(learner.domain)
+        self._test_simulator = learner.make_simulator()
+        # Experience is large, and episodes that learn from it are short.
+        self._checkpoint_every = CHECKPOINT_EVERY * (20 if learner.structure.reinforced else 1)
         self._open: deque[OpenEpisode] = deque()
         self._next = self._applied = first.episodes
         self._draws = first.draws
@@ -119,33 +129,30 @@ class Driver:
         No episode is open at a checkpoint: it would have been rolled out with weights that are gone when a resumed
         run comes to it again.
         """
-        if self._next % CHECKPOINT_EVERY == 0 and self._open:
+        if self._next % self._checkpoint_every == 0 and self._open:
             return False
         return len(self._open) < self._config.in_flight and self._next < self._config.episodes
 
     def _start_episode(self, number: int) -> None:
         """Get a new environment instance and go to the first query."""
-        warm_start = number < self._warm_start
+        warm_start = self._algorithm.warm_start if number < self._learner.preset.warm_start else None
         draw = self._draws if warm_start or not self._config.redraw else self._failing_draw()
         self._draws = draw + 1
         instance = self._train_instance(draw)
         s = self._learner.start(instance, draw)
-        generator = (self._algorithm.warm_start if warm_start else self._algorithm.episode)(s, self._learner)
-        query = next(generator)
-        simulator = self._learner.simulator
-        episode = OpenEpisode(
-            number=number,
-            translator=Translator(self._learner.domain, instance),
-            generator=generator,
-            warm_start=warm_start,
-            success=simulator.succeeded if simulator.steps else None,
-            steps=simulator.steps,
-        )
+        generator = (warm_start or self._algorithm.episode)(s, self._learner)
+        episode = OpenEpisode(number, Translator(self._learner.domain, instance), generator)
         self._open.append(episode)
+        query = episode.resume(partial(next, generator))
+        simulator = self._learner.simulator
+        episode.steps, episode.success = simulator.steps, simulator.succeeded if simulator.steps else None
         self._ask(episode, query)
 
     def _train_instance(self, draw: int) -> Any:
-        return _pick(self._instances.train, self._config.seed, _TRAIN_ORDER, draw)
+        instance = _pick(self._instances.train, self._config.seed, _TRAIN_ORDER, draw)
+        if self._instances.vary is None:
+            return instance
+        return self._instances.vary(instance, np.random.default_rng([self._config.seed, _VARIATION, draw]))
 
     def _failing_draw(self) -> int:
         """Return the next draw on whose instance the present policies fail; the next one if none does in a whole lap.
@@ -162,15 +169,10 @@ class Driver:
             first, size = first + size, min(2 * size, _LARGEST_BATCH)
         return self._draws
 
-    @property
-    def _warm_start(self) -> int:
-        return self._learner.preset.warm_start
-
-    def _ask(self, episode: OpenEpisode, query: Query) -> None:
+    def _ask(self, episode: OpenEpisode, query: Query | None) -> None:
         """Ask, and go on with the answers that are there at once."""
-        asking: Query | None = query
-        while asking is not None:
-            ask = episode.translator.ask(asking, episode.number, episode.ordinal)
+        while query is not None:
+            ask = episode.translator.ask(query, episode.number, episode.ordinal)
             try:
                 (asked,) = self._client.ask(self._run_id, [ask])
             except Refused as refusal:
@@ -180,7 +182,7 @@ class Driver:
             episode.ordinal += 1
             episode.pending = asked.id
             self._let_answer()
-            asking = self._go_on(episode)
+            query = self._go_on(episode)
 
     def _go_on(self, episode: OpenEpisode) -> Query | None:
         """Use the pending answer, if it is there, and return the next query, if there is one."""
@@ -193,11 +195,8 @@ class Driver:
             raise
         assert used.answer is not None
         episode.pending = None
-        try:
-            return episode.generator.send(episode.translator.answer(used.answer))
-        except StopIteration as over:
-            episode.labels = over.value
-            return None
+        episode.units += used.units or 0
+        return episode.resume(partial(episode.generator.send, episode.translator.answer(used.answer)))
 
     def _wait(self) -> None:
         """Wait for answers, and let the episodes they belong to go on."""
@@ -221,7 +220,7 @@ class Driver:
         sizes = {key: len(data) for key, data in self._learner.data.items()}
         result = wire.EpisodeResult(
             episode=episode.number,
-            warm_start=episode.warm_start,
+            warm_start=episode.success is None,
             train_success=episode.success,
             test_success=self._test_simulator.succeeded,
             train_steps=episode.steps,
@@ -233,9 +232,9 @@ class Driver:
         self._clock = now
         self._client.report(self._run_id, [result])
         self._applied += 1
-        if self._applied % CHECKPOINT_EVERY == 0:
+        if self._applied % self._checkpoint_every == 0:
             self._checkpoint(self.progress)
-        self._on_episode(result)
+        self._on_episode(result, episode.units)
 
 
 def _pick(instances: Any, seed: int, stream: int, number: int) -> Any:

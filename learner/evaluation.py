@@ -6,7 +6,6 @@ from typing import Any
 
 from learner.learner import TEST, Learner
 from learner.rollout import run_all
-from learner.simulator import Simulator
 
 BATCH = 256
 
@@ -35,7 +34,7 @@ def evaluate(learner: Learner, instances: Sequence[Any], episodes: int) -> Evalu
 
 def attempt(learner: Learner, instances: Sequence[Any], stream: int, numbers: Sequence[int]) -> list[bool]:
     """Roll out on each instance, as rollouts of these numbers in a stream of randomness; return which succeed."""
-    simulators = [Simulator(learner.domain) for _ in instances]
+    simulators = [learner.make_simulator() for _ in instances]
     rollouts = [
         learner.rollout(simulator, instance, stream, number)
         for simulator, instance, number in zip(simulators, instances, numbers, strict=True)

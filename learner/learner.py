@@ -2,6 +2,7 @@
 
 import os
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,27 +10,64 @@ import torch
 
 from learner.datasets import Dataset, Labels
 from learner.domains.base import Domain
+from learner.dqn import QFunction
 from learner.policies import Policy
 from learner.presets.base import Preset
-from learner.rollout import Rollout, flat_rollout, hierarchical_rollout, run
-from learner.simulator import Simulator
+from learner.rollout import Manner, Rollout, explore, flat_rollout, hierarchical_rollout, run
+from learner.simulator import HeadStart, Simulator
 from learner.types import FLAT, META, PolicyKey, State, Trajectory
 
 TRAIN, TEST = 0, 1
 """Streams of randomness: training and test rollouts draw from different ones."""
 
 
+@dataclass(frozen=True)
+class Structure:
+    """What a learner consists of: which policies, and which of them are Q-functions."""
+
+    flat: bool = False  # one policy for everything
+    q_hi: bool = False  # the meta-controller is a Q-function
+    q_lo: bool = False  # the subpolicies are, or the flat policy is; subgoals' terminations are then given
+
+    @property
+    def reinforced(self) -> bool:
+        """Whether anything is learned by reinforcement."""
+        return self.q_hi or self.q_lo
+
+
+HIERARCHY = Structure()
+"""The paper's: mu and pi_g, all imitating."""
+
+
 class Learner:
-    """mu and one pi_g with beta_g per subgoal, or one flat policy; and D_HI and D_g, or D."""
+    """mu and one pi_g with beta_g per subgoal, or one flat policy; and D_HI and D_g, or D.
+
+    Args:
+        domain: where to act.
+        preset: the values of learning.
+        seed: fixes every draw.
+        structure: which policies there are.
+        threads: processor threads to train with; as many as there are if None.
+        head_start: what is carried out before the learner begins; nothing if None.
+    """
 
     def __init__(
-        self, domain: Domain, preset: Preset, seed: int, flat: bool = False, threads: int | None = None
+        self,
+        domain: Domain,
+        preset: Preset,
+        seed: int,
+        structure: Structure = HIERARCHY,
+        threads: int | None = None,
+        head_start: HeadStart | None = None,
     ) -> None:
-        self.domain, self.preset, self.seed, self.flat = domain, preset, seed, flat
-        self.simulator = Simulator(domain)
-        keys = [FLAT] if flat else [META, *range(len(domain.subgoals))]
-        self.policies = {key: self._policy(key) for key in keys}
-        self.data = {key: Dataset(domain.observation_shape) for key in keys}
+        self.domain, self.preset, self.seed, self.structure = domain, preset, seed, structure
+        self._head_start = head_start
+        self.simulator = self.make_simulator()
+        keys = [FLAT] if structure.flat else [META, *range(len(domain.subgoals))]
+        self.q = {key: self._q_function(key) for key in keys if (structure.q_hi if key == META else structure.q_lo)}
+        self.imitators = {key: self._policy(key) for key in keys if key not in self.q}
+        self.policies: dict[PolicyKey, Policy | QFunction] = {**self.imitators, **self.q}
+        self.data = {key: Dataset(domain.observation_shape) for key in self.imitators}
         self._draw = 0
         # One thread a policy: small networks gain nothing from threads within one operation. What each policy learns
         # depends on its own data and generator, so the number of threads changes nothing but the time.
@@ -37,10 +75,25 @@ class Learner:
         self._threads = ThreadPoolExecutor(threads or os.cpu_count(), initializer=torch.set_num_threads, initargs=(1,))
 
     def _policy(self, key: PolicyKey) -> Policy:
-        choices = len(self.domain.subgoals if key == META else self.domain.actions)
-        train = {META: self.preset.train_hi, FLAT: self.preset.train_flat}.get(key, self.preset.train_lo)
-        seed = int(np.random.SeedSequence([self.seed, key + 2]).generate_state(1)[0])
-        return Policy(self.domain.observation_shape, choices, key >= 0, self.preset.network, train, seed)
+        preset = self.preset
+        hi = preset.train_hi_hybrid if self.structure.q_lo else preset.train_hi
+        train = {META: hi, FLAT: preset.train_flat}.get(key, preset.train_lo)
+        shape, choices, seed = self.domain.observation_shape, self._choices(key), self._seed(key)
+        return Policy(shape, choices, key >= 0, preset.network, train, seed)
+
+    def _q_function(self, key: PolicyKey) -> QFunction:
+        shape, choices, seed = self.domain.observation_shape, self._choices(key), self._seed(key)
+        return QFunction(shape, choices, self.preset.network, self.preset.dqn, seed)
+
+    def _choices(self, key: PolicyKey) -> int:
+        return len(self.domain.subgoals if key == META else self.domain.actions)
+
+    def _seed(self, key: PolicyKey) -> int:
+        return int(np.random.SeedSequence([self.seed, key + 2]).generate_state(1)[0])
+
+    def make_simulator(self) -> Simulator:
+        """Return a new simulator, with the head start there may be."""
+        return Simulator(self.domain, self._head_start)
 
     def start(self, instance: Any, draw: int) -> State:
         """Put the simulator into the start state s of an instance, the run's `draw`-th."""
@@ -48,22 +101,35 @@ class Learner:
         return self.simulator.reset(instance)
 
     def roll_out(self, s: State) -> Trajectory:
-        """Roll out the present policies from s, the start state that `start` returned."""
+        """Roll out the present policies from s, the start state that `start` returned.
+
+        Q-functions explore, and are updated after each of their choices (Algorithm 3, lines 9 to 11).
+        """
         del s  # the simulator is in it
-        return run(self.rollout(self.simulator, self.simulator.instance, TRAIN, self._draw), self.policies)
+        rollout = self.rollout(self.simulator, self.simulator.instance, TRAIN, self._draw)
+        return explore(rollout, self.policies, self._stepped) if self.q else run(rollout, self.policies)
+
+    def _stepped(self, key: PolicyKey) -> None:
+        if key in self.q:
+            self.q[key].step()
 
     def rollout(self, simulator: Simulator, instance: Any, stream: int, number: int) -> Rollout:
         """Return a rollout whose choices depend on the seed, the stream and its number in it alone."""
         rng = np.random.default_rng([self.seed, stream, number])
-        roll_out = flat_rollout if self.flat else hierarchical_rollout
-        return roll_out(simulator, instance, self.preset.choosing, rng)
+        epsilons = {key: q.epsilon if stream == TRAIN else 0.0 for key, q in self.q.items()}
+        h_hi = self.preset.h_hi or self.domain.horizons.hi
+        manner = Manner(self.preset.choosing, rng, h_hi, epsilons, terminations_given=self.structure.q_lo)
+        roll_out = flat_rollout if self.structure.flat else hierarchical_rollout
+        return roll_out(simulator, instance, manner)
 
     def learn(self, labels: Labels) -> None:
         """Append to the data buffers, then Train the policies whose buffer grew (docs/paper.md, deviation 6)."""
+        for key, transitions in labels.transitions.items():
+            self.q[key].replay.add(transitions)
         grown: set[PolicyKey] = set()
         symmetries = self.domain.symmetries if self.preset.symmetries else ()
         for seen in (labels, *(labels.seen_through(symmetry) for symmetry in symmetries)):
             for key, rows in seen.rows.items():
                 self.data[key].append(rows)
                 grown |= {key} if rows else set()
-        list(self._threads.map(lambda key: self.policies[key].train(self.data[key]), sorted(grown)))
+        list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), sorted(grown)))

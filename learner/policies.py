@@ -54,7 +54,7 @@ class Policy:
         self.rng = torch.Generator().manual_seed(seed)
         self.network = build_network(observation_shape, choices + int(terminates), network, train.dropout, self.rng)
         self.optimizer = torch.optim.Adam(self.network.parameters(), lr=train.learning_rate, fused=True)
-        self.bf16 = train.bf16 and torch.ops.mkldnn._is_mkldnn_bf16_supported()
+        self.bf16 = train.bf16 and has_bf16()
         self.network.eval()
 
     @torch.inference_mode()
@@ -75,7 +75,7 @@ class Policy:
         self.network.train()
         for rows in torch.split(order, spec.batch):
             with torch.autocast("cpu", torch.bfloat16, enabled=self.bf16):
-                out = self.network(_channels_last(data.observations[rows]))
+                out = self.network(channels_last(data.observations[rows]))
             loss = self._loss(out.float(), data.labels[rows])
             self.optimizer.zero_grad()
             torch.autograd.backward(loss)
@@ -96,6 +96,11 @@ class Policy:
         return loss
 
 
-def _channels_last(batch: torch.Tensor) -> torch.Tensor:
+def has_bf16() -> bool:
+    """Return whether the processor has arithmetic for bf16."""
+    return bool(torch.ops.mkldnn._is_mkldnn_bf16_supported())
+
+
+def channels_last(batch: torch.Tensor) -> torch.Tensor:
     """Lay pictures out as the convolutions like them best; leave vectors as they are."""
     return batch.contiguous(memory_format=torch.channels_last) if batch.dim() == 4 else batch

@@ -5,18 +5,19 @@ rollout can run alone or many in step, the networks then seeing batches (`run_al
 """
 
 from collections.abc import Callable, Generator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from learner.policies import Outputs, Policy
+from learner.policies import Outputs
 from learner.simulator import Simulator
-from learner.types import FLAT, META, PolicyKey, Segment, State, Trajectory
+from learner.types import FLAT, META, PolicyKey, Segment, State, Subgoal, Trajectory
 
-Policies = Mapping[PolicyKey, Policy]
+Policies = Mapping[PolicyKey, Callable[[NDArray[np.float32]], Outputs]]
+"""What is asked about batches of states: a `Policy` or a `QFunction` each."""
 
 
 @dataclass(frozen=True)
@@ -35,49 +36,75 @@ class Choosing:
     termination_threshold: float = 0.9  # beta_g fires above it
 
 
+@dataclass(frozen=True)
+class Manner:
+    """How one rollout chooses."""
+
+    choosing: Choosing
+    rng: np.random.Generator
+    h_hi: int  # most subgoals of an episode
+    epsilons: Mapping[PolicyKey, float] = field(default_factory=dict)  # policies in it choose epsilon-greedily
+    terminations_given: bool = False  # terminal(s; g) is the domain's (Algorithm 3), not beta_g's
+
+    def choose(self, policy: PolicyKey, logits: NDArray[np.float32]) -> int:
+        """Choose by the outputs of a policy, float32[n]: from their softmax at the temperature, or epsilon-greedily."""
+        epsilon = self.epsilons.get(policy)
+        if epsilon is None:
+            return choose(logits, self.choosing, self.rng)
+        if self.rng.random() < epsilon:
+            return int(self.rng.integers(len(logits)))
+        return int(np.argmax(logits))
+
+
 Rollout = Generator[Consult, tuple[NDArray[np.float32], float], Trajectory]
 
 
-def hierarchical_rollout(simulator: Simulator, instance: Any, choosing: Choosing, rng: np.random.Generator) -> Rollout:
-    """Roll out mu and pi_g until the episode ends; return sigma."""
+def hierarchical_rollout(simulator: Simulator, instance: Any, manner: Manner) -> Rollout:
+    """Roll out mu and pi_g until the episode ends or the horizon H_HI is spent; return sigma."""
     sigma: list[Segment] = []
     state = simulator.reset(instance)
-    while not simulator.ended:
+    while not simulator.ended and len(sigma) < manner.h_hi:
         logits, _ = yield Consult(META, state)
-        subgoal = choose(logits, choosing, rng)
-        segment = yield from execute_subgoal(simulator, state, subgoal, choosing, rng)
+        subgoal = manner.choose(META, logits)
+        segment = yield from execute_subgoal(simulator, state, subgoal, manner)
         sigma.append(segment)
         state = segment.states[-1]
     return tuple(sigma)
 
 
 def execute_subgoal(
-    simulator: Simulator, state: State, subgoal: int, choosing: Choosing, rng: np.random.Generator
+    simulator: Simulator, state: State, subgoal: Subgoal, manner: Manner
 ) -> Generator[Consult, tuple[NDArray[np.float32], float], Segment]:
-    """Execute pi_g until beta_g fires, the horizon H_LO is spent or the episode ends; return (s, g, tau).
+    """Execute pi_g until its subgoal has ended, the horizon H_LO is spent or the episode ends; return (s, g, tau).
 
     beta_g is not asked in the first state: a subgoal's end is where the next one starts, so it would end the segment
     before its first step.
     """
-    states, actions, terminated = [state], list[int](), False
-    while not simulator.ended and len(actions) < simulator.domain.horizons.lo:
+    states, actions, rewards = [state], list[int](), list[float]()
+    terminated, outcome = False, None
+    while not terminated and not simulator.ended and len(actions) < simulator.domain.horizons.lo:
         logits, termination = yield Consult(subgoal, states[-1])
-        if actions and termination > choosing.termination_threshold:
+        if not manner.terminations_given and actions and termination > manner.choosing.termination_threshold:
             terminated = True
             break
-        actions.append(choose(logits, choosing, rng))
+        actions.append(manner.choose(subgoal, logits))
         states.append(simulator.step(actions[-1]))
-    return Segment(subgoal, tuple(states), tuple(actions), terminated)
+        rewards.append(simulator.reward)
+        if manner.terminations_given:
+            outcome = simulator.outcome(state, subgoal)
+            terminated = outcome is not None
+    return Segment(subgoal, tuple(states), tuple(actions), terminated, tuple(rewards), outcome, simulator.final)
 
 
-def flat_rollout(simulator: Simulator, instance: Any, choosing: Choosing, rng: np.random.Generator) -> Rollout:
+def flat_rollout(simulator: Simulator, instance: Any, manner: Manner) -> Rollout:
     """Roll out a flat policy until the episode ends; return tau_FULL as one segment without a subgoal."""
-    states, actions = [simulator.reset(instance)], list[int]()
+    states, actions, rewards = [simulator.reset(instance)], list[int](), list[float]()
     while not simulator.ended:
         logits, _ = yield Consult(FLAT, states[-1])
-        actions.append(choose(logits, choosing, rng))
+        actions.append(manner.choose(FLAT, logits))
         states.append(simulator.step(actions[-1]))
-    return (Segment(None, tuple(states), tuple(actions), False),)
+        rewards.append(simulator.reward)
+    return (Segment(None, tuple(states), tuple(actions), False, tuple(rewards), final=simulator.final),)
 
 
 def choose(logits: NDArray[np.float32], choosing: Choosing, rng: np.random.Generator) -> int:
@@ -118,3 +145,16 @@ def run_all(rollouts: Sequence[Rollout], policies: Policies) -> list[Trajectory]
 def run(rollout: Rollout, policies: Policies) -> Trajectory:
     """Run one rollout."""
     return run_all([rollout], policies)[0]
+
+
+def explore(rollout: Rollout, policies: Policies, stepped: Callable[[PolicyKey], None]) -> Trajectory:
+    """Run one rollout; `stepped` is called after each choice with the policy that made it, which may learn then."""
+    try:
+        consult = next(rollout)
+        while True:
+            outputs = policies[consult.policy](consult.state.observation[None])
+            policy, consult = consult.policy, rollout.send((outputs.logits[0], float(outputs.termination[0])))
+            stepped(policy)
+    except StopIteration as over:
+        stepped(consult.policy)
+        return over.value  # type: ignore[no-any-return]  # StopIteration has no type for it

@@ -16,6 +16,7 @@ from learner.config import Progress, TrainConfig
 from learner.domains.base import InstanceSets, find_domain
 from learner.driver import BudgetExhausted, Driver
 from learner.evaluation import Evaluation, evaluate
+from learner.experts.head_start import head_start
 from learner.experts.oracle import OracleExpert
 from learner.inprocess import InProcessTransport
 from learner.learner import Learner
@@ -85,12 +86,15 @@ def build_learner(config: TrainConfig, threads: int | None) -> tuple[Learner, In
     """
     algorithm = find_algorithm(config.algorithm)
     if config.redraw and not algorithm.interactive:
-        raise ValueError(f"{config.algorithm} rolls nothing out, so there is nothing to draw again: leave out --redraw")
+        raise ValueError(f"{config.algorithm} takes every instance as it comes: leave out --redraw")
+    if config.head_start is not None and not algorithm.structure.reinforced:
+        raise ValueError(f"{config.algorithm} has an expert to learn from: leave out --head-start")
     preset = find_preset(config.preset)
     if config.warm_start is not None:
         preset = replace(preset, warm_start=config.warm_start)
     domain = find_domain(config.domain)
-    return Learner(domain, preset, config.seed, algorithm.flat, threads), domain.instances(config.instances)
+    start = None if config.head_start is None else head_start(domain, config.head_start)
+    return Learner(domain, preset, config.seed, algorithm.structure, threads, start), domain.instances(config.instances)
 
 
 def train(
@@ -98,7 +102,7 @@ def train(
     connection: Connection,
     options: RunOptions,
     on_start: Callable[[wire.Run, int], None] = lambda _run, _first: None,
-    on_episode: Callable[[wire.EpisodeResult], None] = lambda _: None,
+    on_episode: Callable[[wire.EpisodeResult, float], None] = lambda _result, _units: None,
 ) -> dict[str, Any]:
     """Train a run to its end and return its summary (DESIGN: the line that `--json` prints).
 

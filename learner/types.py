@@ -5,7 +5,7 @@ subgoal. Subgoals and actions are numbers here, in the order of the domain's own
 """
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,9 @@ PolicyKey = int
 """Names a policy and its data buffer: pi_g and D_g have the key g, and these two have keys of their own."""
 META: PolicyKey = -1
 FLAT: PolicyKey = -2
+
+Outcome = Literal["reached", "failed"]
+"""How a subgoal ended, where its termination is given (Algorithm 3): success(s; g), or terminal(s; g) without it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +36,10 @@ class Segment:
     subgoal: Subgoal | None
     states: tuple[State, ...]  # s_1 .. s_{H+1}
     actions: tuple[Action, ...]  # a_1 .. a_H
-    terminated: bool  # whether beta_g ended it, rather than the horizon or the episode
+    terminated: bool  # whether beta_g or terminal(s; g) ended it, rather than the horizon or the episode
+    rewards: tuple[float, ...] = ()  # r_1 .. r_H, the environment's
+    outcome: Outcome | None = None  # how the subgoal ended, where that is given; None if it was cut off
+    final: bool = False  # whether the environment ended in the last state, for another reason than its time limit
 
     @property
     def start(self) -> State:

@@ -6,11 +6,14 @@ from typing import Any
 
 from learner.algorithms.flat_bc import flat_bc
 from learner.algorithms.flat_dagger import flat_dagger
+from learner.algorithms.flat_dqn import flat_dqn
 from learner.algorithms.h_bc import h_bc
+from learner.algorithms.h_dqn import h_dqn
 from learner.algorithms.hg_dagger import hg_dagger
+from learner.algorithms.hg_dagger_q import hg_dagger_q
 from learner.algorithms.naive_h_dagger import naive_h_dagger
 from learner.datasets import Labels
-from learner.learner import Learner
+from learner.learner import HIERARCHY, Learner, Structure
 from learner.queries import Query
 from learner.types import State
 
@@ -19,24 +22,29 @@ Episode = Callable[[State, Learner], Generator[Query, Any, Labels]]
 
 @dataclass(frozen=True)
 class Algorithm:
-    """What an episode is, during the warm start and after it."""
+    """What an episode is, and what a learner consists of."""
 
-    warm_start: Episode
     episode: Episode
-    flat: bool = False  # whether the learner has one flat policy
+    warm_start: Episode | None = None  # what the first episodes are instead
+    structure: Structure = HIERARCHY
 
     @property
     def interactive(self) -> bool:
-        """Whether the learner rolls its policies out after the warm start."""
-        return self.episode is not self.warm_start
+        """Whether it imitates an expert along rollouts of its own, after demonstrations."""
+        return self.warm_start is not None
 
+
+_FLAT = Structure(flat=True)
 
 ALGORITHMS = {
-    "h-bc": Algorithm(warm_start=h_bc, episode=h_bc),
-    "hg-dagger": Algorithm(warm_start=h_bc, episode=hg_dagger),
-    "naive-h-dagger": Algorithm(warm_start=h_bc, episode=naive_h_dagger),
-    "flat-bc": Algorithm(warm_start=flat_bc, episode=flat_bc, flat=True),
-    "flat-dagger": Algorithm(warm_start=flat_bc, episode=flat_dagger, flat=True),
+    "h-bc": Algorithm(h_bc),
+    "hg-dagger": Algorithm(hg_dagger, warm_start=h_bc),
+    "naive-h-dagger": Algorithm(naive_h_dagger, warm_start=h_bc),
+    "flat-bc": Algorithm(flat_bc, structure=_FLAT),
+    "flat-dagger": Algorithm(flat_dagger, warm_start=flat_bc, structure=_FLAT),
+    "hg-dagger-q": Algorithm(hg_dagger_q, structure=Structure(q_lo=True)),
+    "h-dqn": Algorithm(h_dqn, structure=Structure(q_hi=True, q_lo=True)),
+    "flat-dqn": Algorithm(flat_dqn, structure=Structure(flat=True, q_lo=True)),
 }
 
 

@@ -14,7 +14,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from learner.types import Action, Subgoal
+from learner.types import Action, Outcome, Subgoal
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,7 @@ class InstanceSets:
 
     train: Sequence[Any]
     test: Sequence[Any]
+    vary: Callable[[Any, np.random.Generator], Any] | None = None  # changes a training instance each time it is drawn
 
 
 @dataclass(frozen=True)
@@ -92,6 +93,13 @@ class Domain(Protocol):
 
     def succeeded(self, env: gymnasium.Env[Any, Any]) -> bool:
         """Return whether the task is accomplished in the state that `env` is in."""
+
+    def outcome(self, instance: Any, origin: Any, state: Any, subgoal: Subgoal) -> Outcome | None:
+        """Return how `subgoal`, chosen in `origin`, has ended in `state`; None while it is under way.
+
+        It is what reinforcement learning of subgoals is given (Algorithm 3): terminal(s; g), success(s; g), and from
+        both the pseudo-reward. Origin and state are JSON views. Imitation does without: it learns terminations.
+        """
 
 
 def find_domain(name: str) -> Domain:

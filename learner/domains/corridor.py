@@ -15,6 +15,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from learner.domains.base import Horizons, InstanceSets, Symmetry
+from learner.types import Outcome
 
 CELLS = 13
 DOORS = 4  # cells from door to door
@@ -161,3 +162,7 @@ class CorridorDomain:
     def succeeded(self, env: Any) -> bool:
         """Return whether the agent is on the target."""
         return bool(env.unwrapped.cell == env.unwrapped.corridor.target)
+
+    def outcome(self, instance: Corridor, origin: Any, state: Any, subgoal: int) -> Outcome | None:
+        """Return "reached" on the aim; nothing can go wrong in a corridor."""
+        return "reached" if state == _aim(self.instance_view(instance), origin, subgoal) else None

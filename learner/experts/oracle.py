@@ -29,7 +29,7 @@ class OracleExpert:
         """Answer one query."""
         match ask:
             case wire.AskHierDemo():
-                demonstration = self._hier_demo(ask.instance, ask.state)
+                demonstration = self.demonstrate(ask.instance, ask.state)
                 return _flattened(demonstration) if ask.flat else demonstration
             case wire.AskInspectFull():
                 succeeded = self._oracle.succeeded(ask.instance, ask.segments[-1].states[-1])
@@ -47,7 +47,8 @@ class OracleExpert:
             case wire.AskLabelFull():
                 return self._label_full(ask)
 
-    def _hier_demo(self, instance: Any, state: Any) -> wire.HierDemoAnswer:
+    def demonstrate(self, instance: Any, state: Any) -> wire.HierDemoAnswer:
+        """Carry the task out from a state."""
         segments = []
         while not self._oracle.succeeded(instance, state):
             subgoal = self._oracle.good_subgoals(instance, state)[0]

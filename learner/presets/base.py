@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from learner.dqn import DqnSpec
 from learner.networks import NetworkSpec
 from learner.policies import TrainSpec
 from learner.rollout import Choosing
@@ -16,5 +17,8 @@ class Preset:
     train_hi: TrainSpec
     train_lo: TrainSpec
     train_flat: TrainSpec
+    train_hi_hybrid: TrainSpec  # mu's where subpolicies learn by reinforcement, over many more episodes
+    dqn: DqnSpec
     choosing: Choosing
+    h_hi: int | None = None  # most subgoals of an episode; the domain's number if None
     symmetries: bool = False  # whether each label is also learned from in the domain's other symmetries

@@ -13,6 +13,7 @@ from learner.client import Client
 from learner.config import TrainConfig
 from learner.domains.maze.generator import maze_set
 from learner.domains.maze.maze import ROOMS, SIZE, Cell, Maze, closed_rooms, room_of, walls
+from learner.dqn import DqnSpec
 from learner.networks import NetworkSpec
 from learner.policies import TrainSpec
 from learner.presets import PRESETS
@@ -28,6 +29,8 @@ TINY = Preset(
     train_hi=TINY_TRAIN,
     train_lo=TINY_TRAIN,
     train_flat=TINY_TRAIN,
+    train_hi_hybrid=TINY_TRAIN,
+    dqn=DqnSpec(learning_rate=5e-3, batch=16, least=32, update_every=2, epsilon_steps=200, target_every=20),
     choosing=Choosing(temperature=0.5, termination_threshold=0.9),
 )
 """A preset for runs of a second, in which policies make all kinds of mistakes."""

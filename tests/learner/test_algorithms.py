@@ -167,5 +167,5 @@ def test_interactive_algorithms_start_with_demonstrations() -> None:
 
 
 def test_an_unknown_algorithm_is_refused_with_those_that_exist() -> None:
-    with pytest.raises(ValueError, match=r"no algorithm 'dagger'.*h-bc, hg-dagger"):
+    with pytest.raises(ValueError, match=r"no algorithm 'dagger'.*h-bc, h-dqn, hg-dagger"):
         find_algorithm("dagger")

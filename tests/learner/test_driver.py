@@ -123,7 +123,7 @@ def test_demonstrations_alone_make_a_run_of_algorithm_1(tmp_path: Path) -> None:
 def test_every_episode_is_reported_with_a_test_on_an_unseen_instance(tmp_path: Path) -> None:
     reported: list[wire.EpisodeResult] = []
     with store(tmp_path) as (connection, options):
-        train(corridor(), connection, options, on_episode=reported.append)
+        train(corridor(), connection, options, on_episode=lambda result, _units: reported.append(result))
     assert [result.episode for result in reported] == list(range(12))
     assert [result.warm_start for result in reported] == [True] * 3 + [False] * 9
     assert [result.train_success is None for result in reported] == [True] * 3 + [False] * 9
@@ -155,7 +155,7 @@ def test_a_run_that_somebody_finishes_stops_with_the_servers_refusal(tmp_path: P
     with store(tmp_path) as (connection, options):
         runs: list[str] = []
 
-        def finish(result: wire.EpisodeResult) -> None:
+        def finish(result: wire.EpisodeResult, _units: float) -> None:
             if result.episode == 4:
                 connection.learner.patch_run(runs[0], wire.RunPatch(state="finished"))
 

@@ -1,6 +1,7 @@
 """Rollouts are those of Algorithm 2, and batches of them the same as one by one."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -13,9 +14,9 @@ from learner.domains.base import Horizons
 from learner.domains.corridor import Corridor, CorridorDomain
 from learner.domains.maze.domain import MazeDomain
 from learner.domains.maze.generator import maze_set
-from learner.learner import TEST, TRAIN, Learner
+from learner.learner import TEST, TRAIN, Learner, Structure
 from learner.policies import Outputs
-from learner.rollout import Choosing, choose, hierarchical_rollout, run, run_all
+from learner.rollout import Choosing, Manner, Rollout, choose, hierarchical_rollout, run, run_all
 from learner.simulator import Simulator
 from learner.types import FLAT, META, Trajectory, n_actions
 from tests.learner.kit import GREEDY, TINY, examples
@@ -42,8 +43,16 @@ def corridor_policies(beta: float | Callable[[np.ndarray], float]) -> Mapping[in
     return {META: Fixed(EAST, 3), WEST: Fixed(0, 2, beta), EAST: Fixed(1, 2, beta), TARGET: Fixed(1, 2, beta)}
 
 
+def corridor_rollout(instance: Corridor, choosing: Choosing = GREEDY, seed: int = 0, h_hi: int = 30) -> Rollout:
+    """A rollout in a corridor."""
+    manner = Manner(choosing, np.random.default_rng(seed), h_hi)
+    return hierarchical_rollout(Simulator(CorridorDomain()), instance, manner)
+
+
 def rolled_out(instance: Corridor, beta: float | Callable[[np.ndarray], float]) -> Trajectory:
-    rollout = hierarchical_rollout(Simulator(CorridorDomain()), instance, GREEDY, np.random.default_rng(0))
+    rollout = hierarchical_rollout(
+        Simulator(CorridorDomain()), instance, Manner(GREEDY, np.random.default_rng(0), h_hi=30)
+    )
     return run(rollout, corridor_policies(beta))
 
 
@@ -75,10 +84,13 @@ def test_a_segment_is_at_most_as_long_as_the_horizon() -> None:
 
 def test_the_threshold_has_to_be_passed_not_met() -> None:
     assert [len(segment.actions) for segment in rolled_out(Corridor(0, 12), beta=0.75)] == [6, 6]
-    rollout = hierarchical_rollout(
-        Simulator(CorridorDomain()), Corridor(0, 12), Choosing(0, termination_threshold=0.75), np.random.default_rng(0)
-    )
+    rollout = corridor_rollout(Corridor(0, 12), Choosing(0, termination_threshold=0.75))
     assert [len(segment.actions) for segment in run(rollout, corridor_policies(beta=0.75))] == [6, 6]
+
+
+def test_an_episode_has_at_most_as_many_subgoals_as_the_horizon() -> None:
+    sigma = run(corridor_rollout(Corridor(11, 0), h_hi=3), corridor_policies(0.0))  # walks east, away from the target
+    assert [len(segment.actions) for segment in sigma] == [6, 6, 6]
 
 
 def test_an_episode_ends_with_the_environments_truncation() -> None:
@@ -100,8 +112,8 @@ def contents(trajectories: list[Trajectory]) -> list[Any]:
 @pytest.mark.parametrize("flat", [False, True])
 def test_rollouts_in_step_are_the_same_as_one_by_one(choosing: Choosing, flat: bool) -> None:
     domain = MazeDomain()
-    preset = type(TINY)(TINY.warm_start, TINY.network, TINY.train_hi, TINY.train_lo, choosing)
-    learner = Learner(domain, preset, seed=3, flat=flat, threads=1)
+    preset = replace(TINY, choosing=choosing)
+    learner = Learner(domain, preset, seed=3, structure=Structure(flat=flat), threads=1)
     mazes = maze_set("random")[0][:24]
 
     def rollouts() -> list[Any]:
@@ -123,8 +135,7 @@ def test_there_are_no_segments_without_a_step_and_none_longer_than_the_horizon(s
         return lambda seen: Outputs(rng.normal(size=(len(seen), n)).astype(np.float32), rng.random(len(seen)))
 
     policies: Any = {META: saying_anything(3), **{subgoal: saying_anything(2) for subgoal in (WEST, EAST, TARGET)}}
-    rollout = hierarchical_rollout(Simulator(domain), Corridor(5, 11), Choosing(1.0, 0.5), rng)
-    sigma = run(rollout, policies)
+    sigma = run(corridor_rollout(Corridor(5, 11), Choosing(1.0, 0.5), seed), policies)
     assert all(1 <= len(segment.actions) <= domain.horizons.lo for segment in sigma)
     assert all(len(segment.states) == len(segment.actions) + 1 for segment in sigma)
     assert n_actions(sigma) <= domain.horizons.full
@@ -132,7 +143,7 @@ def test_there_are_no_segments_without_a_step_and_none_longer_than_the_horizon(s
 
 
 def test_a_flat_rollout_is_one_segment_without_a_subgoal_up_to_the_end_of_the_episode() -> None:
-    learner = Learner(CorridorDomain(), TINY, seed=0, flat=True, threads=1)
+    learner = Learner(CorridorDomain(), TINY, seed=0, structure=Structure(flat=True), threads=1)
     policies: Any = {FLAT: Fixed(1, 2)}
     (segment,) = run(learner.rollout(learner.simulator, Corridor(2, 12), TRAIN, 0), policies)
     assert (segment.subgoal, segment.actions, segment.terminated) == (None, (1,) * 10, False)
@@ -140,11 +151,7 @@ def test_a_flat_rollout_is_one_segment_without_a_subgoal_up_to_the_end_of_the_ep
 
 def test_networks_see_batches_when_rollouts_run_in_step() -> None:
     policies = corridor_policies(0.0)
-    rollouts = [
-        hierarchical_rollout(Simulator(CorridorDomain()), Corridor(start, 12), GREEDY, np.random.default_rng(0))
-        for start in (0, 0, 0)
-    ]
-    run_all(rollouts, policies)
+    run_all([corridor_rollout(Corridor(0, 12)) for _ in range(3)], policies)
     assert set(policies[EAST].batches) == {3}
 
 
@@ -153,7 +160,7 @@ def test_draws_depend_on_seed_stream_and_episode_alone() -> None:
 
     def actions(stream: int, episode: int) -> list[tuple[int, ...]]:
         hot = Choosing(temperature=10.0, termination_threshold=2.0)
-        learner.preset = type(TINY)(0, TINY.network, TINY.train_hi, TINY.train_lo, hot)
+        learner.preset = replace(TINY, choosing=hot)
         sigma = run(learner.rollout(Simulator(learner.domain), Corridor(5, 12), stream, episode), learner.policies)
         return [segment.actions for segment in sigma]
 

@@ -6,10 +6,11 @@ from typing import Any
 from learner.domains.base import Horizons, InstanceSets
 from learner.domains.maze.env import MAX_STEPS, MazeEnv
 from learner.domains.maze.files import load_mazes
-from learner.domains.maze.generator import KINDS, maze_set
-from learner.domains.maze.maze import ACTIONS, SIZE, SUBGOALS, Maze
+from learner.domains.maze.generator import KINDS, maze_set, with_doors_redrawn
+from learner.domains.maze.maze import ACTIONS, GO_TO_TARGET, ROOMS, SIZE, SUBGOALS, Maze, cell_of, room_beside, room_of
 from learner.domains.maze.oracle import MazeOracle
 from learner.domains.maze.symmetries import symmetries
+from learner.types import Outcome, Subgoal
 
 
 class MazeDomain:
@@ -19,7 +20,7 @@ class MazeDomain:
     subgoals = SUBGOALS
     actions = ACTIONS
     renderer = "maze"
-    horizons = Horizons(lo=10, hi=MAX_STEPS, full=MAX_STEPS)
+    horizons = Horizons(lo=10, hi=ROOMS**2, full=MAX_STEPS)  # a shortest path enters no room twice
     observation_shape = (3, SIZE, SIZE)
     symmetries = symmetries()
 
@@ -33,7 +34,7 @@ class MazeDomain:
     def instances(self, name: str) -> InstanceSets:
         """Return `random` or `corners` (1,000 + 1,000 mazes), or the mazes of an `.npz`, to train and to test on."""
         if name in KINDS:
-            return InstanceSets(*maze_set(name))
+            return InstanceSets(*maze_set(name), vary=with_doors_redrawn if name == "corners" else None)
         if not name.endswith(".npz"):
             raise ValueError(f"the maze has no instances {name!r}; there are {', '.join(KINDS)}, or a file.npz")
         mazes = load_mazes(Path(name))
@@ -50,3 +51,19 @@ class MazeDomain:
     def succeeded(self, env: Any) -> bool:
         """Return whether the agent is on the target."""
         return bool(env.unwrapped.cell == env.unwrapped.maze.goal)
+
+    def outcome(self, instance: Maze, origin: Any, state: Any, subgoal: Subgoal) -> Outcome | None:
+        """Reached: the next room on that side, or the target. Failed: lava, or another room than the subgoal's.
+
+        "A pseudo-reward of 1 for [...] stepping through the correct door and negative reward for stepping into lava
+        or through other doors" (section 6.1); as in a demonstration, one is through a door in the room behind it.
+        """
+        here, began = cell_of(state), room_of(cell_of(origin))
+        if instance.lava[here]:
+            return "failed"
+        if subgoal == GO_TO_TARGET and here == instance.goal and began == room_of(here):
+            return "reached"
+        if room_of(here) in (None, began):
+            return None
+        wanted = None if subgoal == GO_TO_TARGET else room_beside(cell_of(origin), subgoal)
+        return "reached" if room_of(here) == wanted else "failed"

@@ -5,7 +5,8 @@ random cell of it) until start and goal are connected; the maze is kept if their
 
 `corners`: start and goal are two different corner cells, as in the main text ("from one corner of the maze") and in the
 authors' stored mazes, whose door cells were drawn anew after the layout was accepted, so that paths are a little
-shorter and longer than 40 (docs/paper.md, deviation 2).
+shorter and longer than 40; and as theirs, training mazes get new door cells each time they are drawn (docs/paper.md,
+deviation 2).
 
 About one draw in fifty is kept, so thousands are drawn at once, as arrays whose first axis is the draw.
 """
@@ -57,6 +58,15 @@ def draw_mazes(kind: str, rng: np.random.Generator) -> Iterator[Maze]:
             lava = _with_doors(opened, rng)
         for drawn, s, g in zip(lava[kept], start[kept].tolist(), goal[kept].tolist(), strict=True):
             yield Maze(drawn, tuple(s), tuple(g))
+
+
+def with_doors_redrawn(maze: Maze, rng: np.random.Generator) -> Maze:
+    """Return the maze with each door in a random one of the three cells of its wall."""
+    lava = closed_rooms()
+    for *_, cells in walls():
+        if not all(maze.lava[cell] for cell in cells):
+            lava[cells[rng.integers(3)]] = False
+    return Maze(lava, maze.start, maze.goal)
 
 
 def _opened_walls(start: Cells, goal: Cells, rng: np.random.Generator) -> NDArray[np.bool_]:

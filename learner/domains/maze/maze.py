@@ -76,6 +76,15 @@ def room_of(cell: Cell) -> Room | None:
     return row // ROOMS, column // ROOMS
 
 
+def room_beside(cell: Cell, direction: int) -> Room | None:
+    """Return the room on a side of a cell's room, or of a door; None where there is none."""
+    room, (d_row, d_column) = room_of(cell), MOVES[direction]
+    if room is None:
+        return room_of(moved(cell, direction))
+    row, column = room[0] + d_row, room[1] + d_column
+    return (row, column) if 0 <= row < ROOMS and 0 <= column < ROOMS else None
+
+
 def wall_beside(cell: Cell, direction: int) -> list[Cell]:
     """Return the three cells of the wall on a side of a cell's room; a door's own wall is beside it on two sides."""
     line, along = cell if direction in (0, 1) else cell[::-1]

@@ -1,0 +1,139 @@
+"""Which runs make which figure: `waypost sweep` makes them, `waypost figures` draws them.
+
+A plan is a list of configurations and nothing else, so that who draws figures needs no algorithm.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from learner.config import TrainConfig
+
+SEEDS = (0, 1, 2, 3, 4)
+
+
+@dataclass(frozen=True)
+class Series:
+    """The runs of one curve, over seeds."""
+
+    config: TrainConfig  # of the first seed
+    label: str
+
+    def runs(self, seeds: Sequence[int]) -> list[TrainConfig]:
+        """Return a run per seed."""
+        return [replace(self.config, seed=seed) for seed in seeds]
+
+
+@dataclass(frozen=True)
+class Group:
+    """Series that are compared with each other.
+
+    Args:
+        name: what `--figure` calls it.
+        title: the mazes, and what is particular about the runs.
+        counting: how episodes and costs are counted, for whoever reads a figure.
+        figures: what is drawn of it, by the names in `learner/experiments/figures/draw.py`.
+        series: its curves.
+        labels_only: whether costs leave inspections out, as the authors' do; then the published ones are comparable.
+        hybrid: whether acting is learned by reinforcement, so that success is held against LO samples, not cost.
+    """
+
+    name: str
+    title: str
+    counting: str
+    figures: tuple[str, ...]
+    series: tuple[Series, ...]
+    labels_only: bool = False
+    hybrid: bool = False
+
+
+def _imitation(instances: str, redraw: bool, *algorithms: str) -> tuple[Series, ...]:
+    labels = {
+        "hg-dagger": "hg-DAgger",
+        "h-bc": "h-BC",
+        "flat-dagger": "flat DAgger",
+        "flat-bc": "flat BC",
+        "naive-h-dagger": "naive h-DAgger",
+    }
+    passive = {"h-bc", "flat-bc"}  # nothing is rolled out, so nothing is drawn again
+    return tuple(
+        Series(TrainConfig(a, instances=instances, redraw=redraw and a not in passive), labels[a]) for a in algorithms
+    )
+
+
+_FOUR = ("hg-dagger", "h-bc", "flat-dagger", "flat-bc")
+
+_AS_THE_AUTHORS = (
+    "Episodes: demonstrations first, then one per failed rollout. Costs: labels alone, no inspections. "
+    "Both are as the authors count."
+)
+_HONEST = "Episodes: every rollout. Costs: every label and every inspection."
+_SUCCESS = ("success-by-episode", "success-by-cost", "success-by-lo-cost")
+
+_GROUPS = (
+    Group(
+        "published",
+        "corner mazes, counted as the authors count",
+        _AS_THE_AUTHORS,
+        (*_SUCCESS, "cost-by-kind"),
+        _imitation("corners", True, *_FOUR),
+        labels_only=True,
+    ),
+    Group(
+        "naive",
+        "corner mazes, guided labels against labels everywhere",
+        _AS_THE_AUTHORS,
+        ("lo-cost-by-episode", "success-by-lo-cost"),
+        _imitation("corners", True, "hg-dagger", "naive-h-dagger"),
+        labels_only=True,
+    ),
+    Group(
+        "corners",
+        "corner mazes, every rollout an episode",
+        _HONEST,
+        (*_SUCCESS, "cost-by-kind"),
+        _imitation("corners", False, *_FOUR),
+    ),
+    Group(
+        "random",
+        "random mazes, every rollout an episode",
+        _HONEST,
+        (*_SUCCESS, "cost-by-kind"),
+        _imitation("random", False, *_FOUR),
+    ),
+    Group(
+        "hybrid",
+        "corner mazes, learning to act by reinforcement",
+        "Episodes: every rollout. LO samples: the learner's own steps in training rollouts.",
+        ("progress-by-sample", "success-by-sample"),
+        (
+            Series(TrainConfig("hg-dagger-q", instances="corners", episodes=8_000), "hg-DAgger/Q"),
+            Series(TrainConfig("h-dqn", instances="corners", episodes=8_000, head_start=0.5), "h-DQN, head start 50 %"),
+            Series(TrainConfig("h-dqn", instances="corners", episodes=8_000), "h-DQN"),
+            Series(TrainConfig("flat-dqn", instances="corners", episodes=8_000), "flat DDQN"),
+        ),
+        hybrid=True,
+    ),
+)
+
+GROUPS = {group.name: group for group in _GROUPS}
+"""What can be run and drawn on its own."""
+
+FIGURES = {"maze": tuple(GROUPS), **{name: (name,) for name in GROUPS}}
+"""What `--figure` can name: the maze section of the paper, or one of its groups."""
+
+
+def find_figure(name: str) -> list[Group]:
+    """Return the groups of a figure.
+
+    Raises:
+        ValueError: there is none of that name; the message lists those that exist.
+    """
+    if name not in FIGURES:
+        raise ValueError(f"there is no figure {name!r}; those that exist are: {', '.join(FIGURES)}")
+    return [GROUPS[group] for group in FIGURES[name]]
+
+
+def runs_of(groups: Sequence[Group], seeds: Sequence[int]) -> list[TrainConfig]:
+    """Return every run of the groups once, the first seed of all series first."""
+    series = [series for group in groups for series in group.series]
+    return list(dict.fromkeys(config for seed in seeds for each in series for config in each.runs([seed])))
