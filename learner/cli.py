@@ -12,9 +12,16 @@ from typing import Annotated, Any
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from learner.commands import PatienceOption, ServerOption, TokenOption, learner_errors, needed
+from learner.commands import (
+    PatienceOption,
+    ServerOption,
+    TokenOption,
+    checkpoint_folder,
+    learner_errors,
+    needed,
+    progress_bar,
+)
 from learner.experiments import cli as experiments_cli
 from server import cli as server_cli
 from server.cli import JsonOption, refuse
@@ -78,7 +85,7 @@ def train(
             algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start
         )
         training.build_learner(config, threads)  # says what is wrong before there is a store
-        options = training.RunOptions(name, budget, resume, _checkpoint_folder(checkpoints, store, server), threads)
+        options = training.RunOptions(name, budget, resume, checkpoint_folder(checkpoints, store, server), threads)
         with ExitStack() as stack:
             connection = stack.enter_context(
                 training.remote(server, needed(token), expert == "oracle", patience)
@@ -105,7 +112,7 @@ def evaluate(
     with learner_errors():
         from learner import training
 
-        path = _checkpoint_folder(checkpoints, store, server) / f"{run}.safetensors"
+        path = checkpoint_folder(checkpoints, store, server) / f"{run}.safetensors"
         found = training.evaluate_run(path, instances, episodes, threads)
     if as_json:
         typer.echo(json.dumps({**vars(found), "success_rate": found.success_rate}))
@@ -173,15 +180,6 @@ def main() -> None:
 # --- what the commands share
 
 
-def _checkpoint_folder(given: Path | None, store: Path | None, server: str | None) -> Path:
-    if given is not None:
-        return given
-    if server is not None:
-        return Path("checkpoints")
-    store = store or Path("waypost.db")
-    return store.with_name(f"{store.name}.checkpoints")
-
-
 def _kinds(text: str | None) -> Any:
     from typing import get_args
 
@@ -203,16 +201,7 @@ class _TrainingProgress:
     episodes: int
 
     def __enter__(self) -> "_TrainingProgress":
-        console = Console(stderr=True)
-        self._bar = Progress(
-            TextColumn("{task.description}"),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TimeElapsedColumn(),
-            TimeRemainingColumn(),
-            console=console,
-            disable=not console.is_terminal,
-        )
+        self._bar = progress_bar()
         self._bar.start()
         self._tests: list[bool] = []
         return self

@@ -5,9 +5,12 @@ Quick to import, like every module of commands.
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from server.cli import refuse
 from server.database import BadDatabase
@@ -61,3 +64,27 @@ def _sentence(error: Exception) -> str:
     if text.split(maxsplit=1)[0].isalpha():  # not the name of a file
         text = text[:1].upper() + text[1:]
     return text if text.endswith((".", "?")) else f"{text}."
+
+
+def checkpoint_folder(given: Path | None, store: Path | None, server: str | None) -> Path:
+    """Return where checkpoints are: the folder given, else beside the store, else ./checkpoints."""
+    if given is not None:
+        return given
+    if server is not None:
+        return Path("checkpoints")
+    store = store or Path("waypost.db")
+    return store.with_name(f"{store.name}.checkpoints")
+
+
+def progress_bar() -> Progress:
+    """Return a bar on a terminal; nothing elsewhere."""
+    console = Console(stderr=True)
+    return Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+        console=console,
+        disable=not console.is_terminal,
+    )

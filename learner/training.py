@@ -21,6 +21,7 @@ from learner.experts.oracle import OracleExpert
 from learner.inprocess import InProcessTransport
 from learner.learner import Learner
 from learner.presets import find_preset
+from learner.tracking import Tracker
 from learner.translation import vocabulary
 from server import people, wire
 from server.app import create_app
@@ -78,6 +79,11 @@ def remote(server: str, token: str, answers_here: bool, patience: float) -> Iter
         client.close()
 
 
+def config_values(config: TrainConfig) -> dict[str, Any]:
+    """Return a configuration as a run carries it: without what is not set."""
+    return {key: value for key, value in asdict(config).items() if value is not None}
+
+
 def build_learner(config: TrainConfig, threads: int | None) -> tuple[Learner, InstanceSets]:
     """Return what a configuration describes.
 
@@ -122,23 +128,29 @@ def train(
     def save(progress: Progress, weights_only: bool) -> None:
         checkpoints.write(path, learner, checkpoints.Header(run.id, config, progress), weights_only)
 
-    driver = Driver(
-        config,
-        find_algorithm(config.algorithm),
-        learner,
-        instances,
-        connection.learner,
-        run.id,
-        _answering(connection, run.id),
-        on_episode,
-        partial(save, weights_only=False),
-        first,
-    )
     ended = "finished"
-    try:
-        driver.train()
-    except BudgetExhausted:
-        ended = "budget exhausted"
+    with Tracker(path.with_suffix(".events"), first.episodes) as tracker:
+
+        def report(result: wire.EpisodeResult, units: float) -> None:
+            tracker.episode(result, units)
+            on_episode(result, units)
+
+        driver = Driver(
+            config,
+            find_algorithm(config.algorithm),
+            learner,
+            instances,
+            connection.learner,
+            run.id,
+            _answering(connection, run.id),
+            report,
+            partial(save, weights_only=False),
+            first,
+        )
+        try:
+            driver.train()
+        except BudgetExhausted:
+            ended = "budget exhausted"
     save(driver.progress, weights_only=True)
     return _summary(config, learner, connection.learner, run.id, ended, time.monotonic() - began)
 
@@ -158,7 +170,7 @@ def evaluate_run(path: Path, instances: str | None, episodes: int, threads: int 
 
 def _run(config: TrainConfig, learner: Learner, client: Client, options: RunOptions) -> wire.Run:
     """Return the run to train: a new one, or the newest unfinished one of this configuration to go on with."""
-    values = {key: value for key, value in asdict(config).items() if value is not None}
+    values = config_values(config)
     if options.resume:
         for run in client.runs():
             if run.config == values and run.state != "finished" and options.name in (None, run.name):
