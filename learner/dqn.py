@@ -25,7 +25,7 @@ class DqnSpec:
     discount: float = 0.95  # gamma
     target_every: int = 250  # updates
     capacity: int = 50_000  # transitions
-    least: int = 500  # transitions before the first update
+    least: int = 200  # transitions before the first update
     alpha: float = 0.6  # exponent of priorities
     beta: float = 0.4  # exponent of the weights that make up for them, at first; 1 after `beta_updates`
     beta_updates: int = 20_000

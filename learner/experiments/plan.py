@@ -62,10 +62,7 @@ def _imitation(instances: str, redraw: bool, *algorithms: str) -> tuple[Series, 
 
 _FOUR = ("hg-dagger", "h-bc", "flat-dagger", "flat-bc")
 
-_AS_THE_AUTHORS = (
-    "Episodes: demonstrations first, then one per failed rollout. Costs: labels alone, no inspections. "
-    "Both are as the authors count."
-)
+_AS_THE_AUTHORS = "Episodes: demonstrations, then one per failed rollout; costs: labels alone (as the authors count)."
 _HONEST = "Episodes: every rollout. Costs: every label and every inspection."
 _SUCCESS = ("success-by-episode", "success-by-cost", "success-by-lo-cost")
 
