@@ -1,0 +1,127 @@
+"""`waypost figures`: runs are gathered, what is missing is named, and all that can be drawn is drawn."""
+
+import shlex
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from learner.config import TrainConfig
+from learner.experiments import plan
+from learner.experiments.figures import archive, draw, report, tables
+from learner.experiments.figures.data import Comparison, RunCurves
+
+Found = Mapping[TrainConfig, RunCurves]
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is drawn, and where it goes.
+
+    Args:
+        figure: what `--figure` can name.
+        seeds: a run of each series with each.
+        out: the folder for figures and tables.
+        report: the Markdown document to write; none if None.
+        store: the store to name in the command that makes the runs.
+    """
+
+    figure: str
+    seeds: tuple[int, ...]
+    out: Path
+    report: Path | None = None
+    store: str = "runs.db"
+
+    @property
+    def groups(self) -> list[plan.Group]:
+        """The groups to draw.
+
+        Raises:
+            ValueError: there is no figure of that name.
+        """
+        return plan.find_figure(self.figure)
+
+    @property
+    def wanted(self) -> list[TrainConfig]:
+        """Every run there should be."""
+        return plan.runs_of(self.groups, self.seeds)
+
+
+def merge(sources: Iterable[Found]) -> Found:
+    """Return the runs of several sources; of one that several have, what got furthest, or what came first."""
+    merged: dict[TrainConfig, RunCurves] = {}
+    for source in sources:
+        for config, run in source.items():
+            if config not in merged or len(run.episode) > len(merged[config].episode):
+                merged[config] = run
+    return merged
+
+
+def missing(request: Request, found: Found) -> list[TrainConfig]:
+    """Return the wanted runs that are not there, or not whole."""
+    return [config for config in request.wanted if config not in found or not found[config].complete]
+
+
+def describe(config: TrainConfig, found: Found) -> str:
+    """Name a missing run by what tells it from the others of the plan, and how far it is."""
+    run = found.get(config)
+    return ", ".join(
+        [
+            config.algorithm,
+            config.instances,
+            *(["redraw"] if config.redraw else []),
+            *([] if config.head_start is None else [f"head start {config.head_start:.0%}"]),
+            f"seed {config.seed}",
+            "not begun" if run is None else f"{len(run.episode)} of {config.episodes} episodes",
+        ]
+    )
+
+
+def sweep_command(request: Request, runs: Sequence[TrainConfig]) -> str:
+    """Return the command that makes these runs of a figure."""
+    seeds = sorted({config.seed for config in runs})
+    return f"waypost sweep --figure {request.figure} --seeds {_joined(seeds)} --store {shlex.quote(request.store)}"
+
+
+def make(request: Request, found: Found) -> dict[str, Any]:
+    """Draw what can be drawn and return what was written.
+
+    Raises:
+        ValueError: none of the runs is there.
+    """
+    comparisons = [Comparison.of(group, request.seeds, found) for group in request.groups]
+    comparisons = [comparison for comparison in comparisons if comparison.runs]
+    if not comparisons:
+        raise ValueError("none of the runs is there, so there is nothing to draw")
+    request.out.mkdir(parents=True, exist_ok=True)
+    runs = [found[config] for config in request.wanted if config in found]
+    files = [archive.write(request.out, runs), tables.write_summary(request.out, comparisons)]
+    names = []
+    for comparison in comparisons:
+        for name, figure in draw.figures_of(comparison):
+            names.append(name)
+            files += draw.save(figure, request.out, name)
+    lacking = [describe(config, found) for config in missing(request, found)]
+    if request.report is not None:
+        commands = [sweep_command(request, request.wanted), _own_command(request, bool(lacking))]
+        report.write(request.report, request.out, comparisons, names, commands, lacking)
+        files.append(request.report)
+    return {"figure": request.figure, "runs": len(runs), "missing": lacking, "files": [str(file) for file in files]}
+
+
+def _own_command(request: Request, partial: bool) -> str:
+    """Return the command that draws all this again from the CSV it wrote."""
+    words = ["waypost", "figures", "--figure", request.figure, "--seeds", _joined(request.seeds)]
+    words += ["--from", _shown(request.out), "--out", _shown(request.out), "--report", _shown(request.report)]
+    return shlex.join([*words, *(["--partial"] if partial else [])])
+
+
+def _joined(seeds: Iterable[int]) -> str:
+    return ",".join(map(str, seeds))
+
+
+def _shown(path: Path | None) -> str:
+    """Return a path as somebody else can type it: below the working folder, or its name alone."""
+    assert path is not None
+    path = path.resolve()
+    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path.name)
