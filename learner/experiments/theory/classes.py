@@ -1,0 +1,51 @@
+"""The finite policy classes M and Pi_LO of the analysis (Le et al. 2018, section 4.3), drawn at random.
+
+A policy is a table from positions to choices. Among the policies of a class is the expert's: the task is realizable.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+N_POSITIONS = 64
+N_ACTIONS = 2
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One setting of the analysis: the horizons and the sizes of the sets."""
+
+    h_hi: int  # H_HI, segments in an episode
+    h_lo: int  # H_LO, actions in a segment; 2 at least
+    n_mu: int  # |M|
+    n_pi: int  # |Pi_LO|
+    n_subgoals: int  # |G|; 2 at least
+
+
+@dataclass(frozen=True)
+class Classes:
+    """M and Pi_LO, and the expert's policies, which are among them."""
+
+    mu: NDArray[np.int64]  # [|M|, N_POSITIONS], subgoals
+    pi: NDArray[np.int64]  # [|Pi_LO|, N_POSITIONS], actions
+    mu_star: NDArray[np.int64]  # [N_POSITIONS], a row of M
+    pi_star: NDArray[np.int64]  # [|G|, N_POSITIONS], rows of Pi_LO
+
+    @property
+    def n_used(self) -> int:
+        """|G_opt|: how many subgoals mu* uses anywhere."""
+        return len(np.unique(self.mu_star))
+
+
+def draw_classes(cell: Cell, rng: np.random.Generator) -> Classes:
+    """Draw M, Pi_LO and the expert in them.
+
+    Each position leaves two subgoals, as it leaves two actions. Where a majority of fair coins errs, about half of the
+    class erred, so a mistake teaches about as little as the analysis allows.
+    """
+    in_question = np.array([rng.choice(cell.n_subgoals, 2, replace=False) for _ in range(N_POSITIONS)])
+    mu = in_question[np.arange(N_POSITIONS), rng.integers(2, size=(cell.n_mu, N_POSITIONS))]
+    pi = rng.integers(N_ACTIONS, size=(cell.n_pi, N_POSITIONS))
+    rows = rng.choice(cell.n_pi, cell.n_subgoals, replace=cell.n_pi < cell.n_subgoals)
+    return Classes(mu, pi, mu_star=mu[rng.integers(cell.n_mu)], pi_star=pi[rows])
