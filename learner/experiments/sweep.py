@@ -8,7 +8,7 @@ import fcntl
 import os
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -53,6 +53,7 @@ def sweep(
     jobs: int,
     ray: str | None = None,
     on_progress: Callable[[Progress], None] = lambda _: None,
+    backend: str = "loky",
 ) -> dict[str, str]:
     """Make the runs that are not finished yet; return what went wrong, by the run's name.
 
@@ -62,6 +63,7 @@ def sweep(
         jobs: how many runs go on at once.
         ray: the address of a Ray cluster ("auto" for the one of this machine); None for processes of this machine.
         on_progress: called every few seconds.
+        backend: joblib's, on this machine: "loky" makes a process for each job, "sequential" none.
 
     Raises:
         ValueError: another sweep is at work on the same store, or a cluster cannot reach the store.
@@ -71,7 +73,7 @@ def sweep(
     with _alone(place), place.connect() as connection, _reporting(runs, connection, on_progress):
         done = finished(runs, connection)
         todo = [config for config in runs if config not in done]
-        with _backend(ray):
+        with _backend(backend, ray):
             troubles = joblib.Parallel(n_jobs=jobs, batch_size=1, pre_dispatch=jobs)(
                 joblib.delayed(_train)(config, place) for config in todo
             )
@@ -147,9 +149,9 @@ def _reporting(
     report()
 
 
-def _backend(address: str | None) -> AbstractContextManager[Any]:
+def _backend(backend: str, address: str | None) -> AbstractContextManager[Any]:
     if address is None:
-        return nullcontext()
+        return joblib.parallel_config(backend=backend)  # type: ignore[no-any-return]
     import ray
     from ray.util.joblib import register_ray
 

@@ -1,6 +1,7 @@
-"""Algorithms 1 and 2, driven by hand: what they ask, in which order, and what they learn from the answers."""
+"""The algorithms, driven by hand: what they ask, in which order, and what they learn from the answers."""
 
 from collections.abc import Generator
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -8,18 +9,26 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from learner.algorithms import ALGORITHMS, find_algorithm
+from learner.algorithms.flat_bc import flat_bc
+from learner.algorithms.flat_dagger import flat_dagger
+from learner.algorithms.flat_dqn import flat_dqn
 from learner.algorithms.h_bc import h_bc
+from learner.algorithms.h_dqn import h_dqn
 from learner.algorithms.hg_dagger import hg_dagger
+from learner.algorithms.hg_dagger_q import hg_dagger_q
+from learner.algorithms.naive_h_dagger import naive_h_dagger
 from learner.datasets import Labels
-from learner.queries import HierDemo, InspectFull, InspectLo, LabelHi, LabelLo, LoLabels, Query
-from learner.types import META, State, Trajectory
-from tests.learner.kit import examples, segment, state
+from learner.queries import HierDemo, InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, LoLabels, Query
+from learner.types import FLAT, META, State, Trajectory, n_actions
+from tests.learner.kit import TINY, examples, segment, state
 
 S = state("s")
 
 
 class ScriptedLearner:
     """Rolls out the trajectory it was given."""
+
+    preset = TINY
 
     def __init__(self, sigma: Trajectory) -> None:
         self.sigma = sigma
@@ -45,6 +54,10 @@ class Expert:
         match query:
             case InspectFull():
                 return self.passes
+            case HierDemo():
+                return self.sigma
+            case LabelFull(sigma):
+                return (1,) * n_actions(sigma)
             case LabelHi():
                 return tuple(self.good_subgoals)
             case InspectLo(one):
@@ -55,10 +68,10 @@ class Expert:
 
 
 def carried_out(episode: Generator[Query, Any, Labels], expert: Expert) -> Labels:
-    query = next(episode)
+    answer = None
     while True:
         try:
-            query = episode.send(expert(query))
+            answer = expert(episode.send(answer))
         except StopIteration as over:
             return over.value
 
@@ -164,6 +177,69 @@ def test_algorithm_1_asks_for_a_demonstration_from_the_start_state_and_learns_al
 def test_interactive_algorithms_start_with_demonstrations() -> None:
     assert ALGORITHMS["hg-dagger"].warm_start is h_bc
     assert find_algorithm("h-bc").episode is h_bc
+
+
+def flat_trajectory(actions: int = 3) -> Trajectory:
+    return (segment(None, n_actions=actions, terminated=False),)
+
+
+def test_flat_cloning_asks_for_a_flat_demonstration_and_learns_its_actions() -> None:
+    tau = flat_trajectory()
+    expert = Expert(tau, True, [], [])
+    labels = carried_out(flat_bc(S, ScriptedLearner(())), expert)  # type: ignore[arg-type]
+    assert expert.asked == [HierDemo(S, flat=True)]
+    assert [(row.choice, row.termination) for row in labels.rows[FLAT]] == [(0, -1)] * 3
+
+
+@pytest.mark.parametrize("passes", [True, False])
+def test_flat_dagger_inspects_and_labels_the_whole_trajectory_only_after_a_fail(passes: bool) -> None:
+    tau = flat_trajectory()
+    expert = Expert(tau, passes, [], [])
+    labels = carried_out(flat_dagger(S, ScriptedLearner(tau)), expert)  # type: ignore[arg-type]
+    assert expert.asked == [InspectFull(tau)] if passes else [InspectFull(tau), LabelFull(tau)]
+    assert [row.choice for row in labels.rows.get(FLAT, [])] == ([] if passes else [1, 1, 1])
+
+
+@examples
+@given(st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), min_size=1, max_size=8), st.booleans())
+def test_naive_hierarchical_dagger_labels_everything_and_inspects_nothing(
+    chosen_and_good: list[tuple[int, int]], passes: bool
+) -> None:
+    sigma = tuple(segment(chosen, n_actions=2) for chosen, _ in chosen_and_good)
+    expert = Expert(sigma, passes, [good for _, good in chosen_and_good], [passes] * len(sigma))
+    labels = carried_out(naive_h_dagger(S, ScriptedLearner(sigma)), expert)  # type: ignore[arg-type]
+    assert expert.asked == [LabelHi(sigma), *(LabelLo(one, before=sigma[:h]) for h, one in enumerate(sigma))]
+    assert [row.choice for row in labels.rows[META]] == expert.good_subgoals
+    assert labels.rows.keys() == {META, *(one.subgoal for one in sigma)}
+
+
+@examples
+@given(st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), min_size=1, max_size=8), st.booleans())
+def test_the_hybrid_learns_to_act_only_from_segments_before_the_first_wrong_subgoal(
+    chosen_and_good: list[tuple[int, int]], passes: bool
+) -> None:
+    sigma = tuple(segment(chosen, n_actions=2) for chosen, _ in chosen_and_good)
+    expert = Expert(sigma, passes, [good for _, good in chosen_and_good], [])
+    labels = carried_out(hg_dagger_q(S, ScriptedLearner(sigma)), expert)  # type: ignore[arg-type]
+    agreeing = 0
+    while agreeing < len(sigma) and (passes or chosen_and_good[agreeing][0] == chosen_and_good[agreeing][1]):
+        agreeing += 1
+    learned = {key: len(transitions) for key, transitions in labels.transitions.items()}
+    assert learned == {g: 2 * sum(s.subgoal == g for s in sigma[:agreeing]) for g in learned}
+    assert sum(learned.values()) == 2 * agreeing
+    assert expert.asked == ([InspectFull(sigma)] if passes else [InspectFull(sigma), LabelHi(sigma)])
+    assert [row.choice for row in labels.rows.get(META, [])] == ([] if passes else expert.good_subgoals)
+
+
+def test_learning_by_reinforcement_alone_asks_nobody_and_learns_from_everything() -> None:
+    expert = Expert((), True, [], [])
+    sigma = (segment(1, n_actions=3), segment(0, n_actions=2))
+    labels = carried_out(h_dqn(S, ScriptedLearner(sigma)), expert)  # type: ignore[arg-type]
+    assert {key: len(of) for key, of in labels.transitions.items()} == {1: 3, 0: 2, META: 2}
+    tau = (replace(flat_trajectory()[0], rewards=(0.0, 0.0, 1.0)),)
+    labels = carried_out(flat_dqn(S, ScriptedLearner(tau)), expert)  # type: ignore[arg-type]
+    assert {key: len(of) for key, of in labels.transitions.items()} == {FLAT: 3}
+    assert expert.asked == []
 
 
 def test_an_unknown_algorithm_is_refused_with_those_that_exist() -> None:

@@ -9,15 +9,21 @@ from typing import Any
 
 import pytest
 
+from learner.algorithms import ALGORITHMS
 from learner.bot import Bot, BotSettings
+from learner.checkpoints import read_header
 from learner.client import Refused
 from learner.config import TrainConfig
-from learner.domains.corridor import CorridorDomain
+from learner.domains.corridor import Corridor, CorridorDomain
+from learner.domains.maze.domain import MazeDomain
+from learner.domains.maze.maze import Maze
+from learner.experts.head_start import head_start
 from learner.experts.oracle import OracleExpert
+from learner.simulator import Simulator
 from learner.training import Connection, train
 from learner.translation import vocabulary
 from server import wire
-from tests.learner.kit import corridor, outcome, store
+from tests.learner.kit import corridor, history, outcome, store
 
 
 class OutOfOrder:
@@ -232,3 +238,72 @@ def test_a_bot_answers_only_the_kinds_and_the_run_it_was_told_to(tmp_path: Path)
     assert kinds[inspector] <= {"inspect_full", "inspect_lo"}
     assert "hier_demo" in kinds[labeler]
     assert kinds[labeler] <= {"hier_demo", "label_hi", "label_lo"}
+
+
+@pytest.mark.parametrize("algorithm", sorted(ALGORITHMS))
+def test_every_algorithm_repeats_itself_to_the_last_bit(tmp_path: Path, algorithm: str) -> None:
+    config = corridor(algorithm=algorithm, head_start=0.5 if algorithm == "h-dqn" else None)
+    found, again = at_once(tmp_path / "one", config), at_once(tmp_path / "other", config)
+    assert found == again
+
+
+@pytest.mark.parametrize("algorithm", ["hg-dagger", "naive-h-dagger", "flat-dagger"])
+def test_with_redraw_every_episode_after_the_warm_start_is_a_failed_one(tmp_path: Path, algorithm: str) -> None:
+    reported: list[wire.EpisodeResult] = []
+    with store(tmp_path) as (connection, options):
+        config = corridor(algorithm=algorithm, redraw=True)
+        summary = train(config, connection, options, on_episode=lambda result, _units: reported.append(result))
+        drawn = read_header(options.checkpoints / f"{summary['run']}.safetensors").progress.draws
+    assert [result.train_success for result in reported] == [None] * 3 + [False] * 9
+    assert drawn > 12  # otherwise nothing was drawn again, and this test shows nothing
+
+
+def test_an_instance_that_fails_is_not_drawn_again_for_as_long_as_there_are_others(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options):
+        run = train(corridor(redraw=True), connection, options)["run"]
+        asked = history(connection.learner, run)
+    instances = [str(ask["instance"]) for episode, ordinal, ask, *_ in asked if ordinal == 0]
+    assert len(set(instances)) == len(instances)
+
+
+@pytest.mark.parametrize("algorithm", ["h-bc", "flat-bc", "hg-dagger-q", "h-dqn", "flat-dqn"])
+def test_redraw_is_refused_where_no_instance_is_drawn_for_a_question(tmp_path: Path, algorithm: str) -> None:
+    with store(tmp_path) as (connection, options), pytest.raises(ValueError, match="leave out --redraw"):
+        train(corridor(algorithm=algorithm, redraw=True), connection, options)
+
+
+def test_a_head_start_is_for_learners_without_an_expert(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options), pytest.raises(ValueError, match="leave out --head-start"):
+        train(corridor(head_start=0.5), connection, options)
+
+
+@pytest.mark.parametrize("share", [0.0, 1.0, -0.5])
+def test_a_head_start_is_a_share_of_the_way(tmp_path: Path, share: float) -> None:
+    with store(tmp_path) as (connection, options), pytest.raises(ValueError, match="between 0 and 1"):
+        train(corridor(algorithm="h-dqn", head_start=share), connection, options)
+
+
+def test_a_head_start_is_the_first_half_of_an_optimal_way_and_costs_no_steps() -> None:
+    domain = CorridorDomain()
+    simulator = Simulator(domain, head_start(domain, 0.5))
+    assert simulator.reset(Corridor(2, 11)).view == 2 + 4  # of 9 steps
+    assert (simulator.steps, simulator.ended) == (0, False)
+
+
+def test_learning_by_reinforcement_alone_costs_nothing_and_is_tested_all_the_same(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options):
+        summary = train(corridor(algorithm="flat-dqn"), connection, options)
+        curves = connection.learner.curves(summary["run"])
+    assert summary["cost"]["total"] == 0
+    assert len(curves.test_success) == 12
+    assert curves.lo_samples[-1] > 0
+
+
+def test_training_instances_are_varied_where_their_set_says_so(tmp_path: Path) -> None:
+    config = TrainConfig("h-bc", instances="corners", preset="tiny", episodes=3)
+    with store(tmp_path) as (connection, options):
+        asked = [history(connection.learner, train(config, connection, options)["run"]) for _ in range(2)]
+    mazes = [Maze.from_json(ask["instance"]) for *_, ask, _answer, _units in asked[0]]
+    assert asked[0] == asked[1]  # the same doors in the same run
+    stored = MazeDomain().instances("corners").train
+    assert not any((maze.lava == one.lava).all() for maze in mazes for one in stored)

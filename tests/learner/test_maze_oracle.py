@@ -255,3 +255,30 @@ def test_a_maze_survives_its_json_view(maze: Maze) -> None:
 def test_the_names_are_the_papers() -> None:
     assert SUBGOALS == ("north", "south", "west", "east", "go_to_target")
     assert ACTIONS == ("up", "down", "left", "right")
+
+
+@examples
+@given(st.data(), drawn_mazes())
+def test_given_terminations_say_what_the_expert_says(data: st.DataObject, maze: Maze) -> None:
+    """A subgoal has ended where the oracle says it is reached; elsewhere, it failed in lava or in a wrong room."""
+    domain = MazeDomain()
+    origin = data.draw(st.sampled_from([cell for cell in reachable_cells(maze) if room_of(cell) is not None]))
+    here = data.draw(st.sampled_from([cell for cell in reachable_cells(maze) if cell != origin]))
+    subgoal = data.draw(st.integers(0, 4))
+    found = domain.outcome(maze, list(origin), list(here), subgoal)
+    if oracle.reached(maze.to_json(), list(origin), list(here), subgoal):
+        assert found == "reached"
+    elif room_of(here) in (None, room_of(origin)):
+        assert found is None
+    elif found == "reached":  # in the room that the subgoal names, by a way around: there is no door in between
+        assert not entries(maze, origin, subgoal)
+        assert subgoal != TARGET
+    else:
+        assert found == "failed"
+
+
+@examples
+@given(st.data(), drawn_mazes(), st.integers(0, 4))
+def test_lava_fails_every_subgoal(data: st.DataObject, maze: Maze, subgoal: int) -> None:
+    lava = data.draw(st.sampled_from([(int(r), int(c)) for r, c in zip(*maze.lava.nonzero(), strict=True)]))
+    assert MazeDomain().outcome(maze, list(maze.start), list(lava), subgoal) == "failed"

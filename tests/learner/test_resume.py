@@ -84,6 +84,22 @@ def test_a_run_interrupted_at_any_call_and_resumed_is_the_run_that_never_was(tmp
         assert found == expected, f"interrupted at call {call}"
 
 
+@pytest.mark.parametrize("algorithm", ["hg-dagger-q", "h-dqn", "flat-dqn"])
+def test_experience_exploration_and_targets_survive_an_interruption(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, algorithm: str
+) -> None:
+    monkeypatch.setattr(driver, "CHECKPOINT_EVERY", 1)  # every 20 episodes, of reinforcement learning
+    config = corridor(algorithm=algorithm, episodes=50)
+    expected = uninterrupted(tmp_path / "uninterrupted", config)
+    assert interrupted(tmp_path / "interrupted", config, 46, before_it_arrives=True) == expected
+
+
+def test_a_run_with_redraw_goes_on_with_the_same_instances(tmp_path: Path) -> None:
+    config = corridor(redraw=True)
+    expected = uninterrupted(tmp_path / "uninterrupted", config)
+    assert interrupted(tmp_path / "interrupted", config, 60, before_it_arrives=True) == expected
+
+
 @pytest.mark.timeout(120)
 def test_a_question_that_was_in_the_dead_experts_hands_is_given_back_at_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -1,0 +1,178 @@
+"""A sweep: every run once, whatever interrupts it."""
+
+import fcntl
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from learner.cli import app
+from learner.config import TrainConfig
+from learner.experiments import plan
+from learner.experiments.sweep import Place, Progress, name_of, sweep
+from learner.training import embedded
+from server import people, serving
+from server.settings import Settings
+from tests.learner.kit import corridor, history
+
+# A preset of the product: a sweep's workers know no other.
+VALUES = {"preset": "demo", "warm_start": 3}
+RUNS = [corridor(algorithm=algorithm, seed=seed, **VALUES) for seed in (0, 1) for algorithm in ("hg-dagger", "h-bc")]
+SCRIPT = """
+import sys
+from pathlib import Path
+from learner.experiments.sweep import Place, sweep
+from tests.learner.test_sweep import RUNS
+
+if __name__ == "__main__":
+    store = Path(sys.argv[1])
+    print(sweep(RUNS, Place(store.with_suffix(".checkpoints"), store), jobs=2))
+"""
+
+
+def place(folder: Path) -> Place:
+    return Place(folder / "checkpoints", folder / "waypost.db")
+
+
+def contents(store: Path) -> dict[str, tuple[Any, ...]]:
+    """All there is in a store, by run: what was asked, answered and charged, and the curves, but no times."""
+    with embedded(store) as connection:
+        client = connection.learner
+        found = {}
+        for run in client.runs():
+            curves = client.curves(run.id)
+            name = f"{run.algorithm} {run.seed}"
+            assert name not in found, f"{name} was made twice"
+            weights = (run.result or {}).get("weights")
+            results = (curves.episode, curves.test_success, curves.cost, curves.cost_by_kind)
+            found[name] = (run.state, weights, results, history(client, run.id))
+        return found
+
+
+@pytest.fixture(scope="module")
+def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Any, ...]]:
+    folder = tmp_path_factory.mktemp("uninterrupted")
+    assert sweep(RUNS, place(folder), jobs=1, backend="sequential") == {}
+    return contents(folder / "waypost.db")
+
+
+def test_every_run_is_made_and_the_next_sweep_makes_nothing(
+    tmp_path: Path, uninterrupted: dict[str, tuple[Any, ...]]
+) -> None:
+    said: list[Progress] = []
+    assert sweep(RUNS[:2], place(tmp_path), jobs=1, on_progress=said.append, backend="sequential") == {}
+    assert sweep(RUNS, place(tmp_path), jobs=1, on_progress=said.append, backend="sequential") == {}
+    assert contents(tmp_path / "waypost.db") == uninterrupted
+    assert said[0] == Progress(finished=0, episodes=0)
+    assert said[-1] == Progress(finished=4, episodes=48)
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
+def test_an_interrupted_sweep_started_again_ends_as_the_one_that_never_was(
+    tmp_path: Path, uninterrupted: dict[str, tuple[Any, ...]], how: signal.Signals
+) -> None:
+    store = tmp_path / "waypost.db"
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path.cwd()), *filter(None, sys.path)])}
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT)
+
+    def begun() -> subprocess.Popen[bytes]:
+        return subprocess.Popen(
+            [sys.executable, script, store], env=env, stdout=subprocess.PIPE, start_new_session=True
+        )
+
+    process = begun()
+    deadline = time.monotonic() + 120
+    while episodes_in(store) < 10:
+        assert process.poll() is None, "the sweep ended before it could be interrupted"
+        assert time.monotonic() < deadline, "the sweep did not begin"
+        time.sleep(0.02)
+    assert process.stdout is not None
+    process.stdout.close()
+    if how == signal.SIGINT:
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+    else:
+        os.kill(process.pid, signal.SIGKILL)  # the sweep alone: its workers must notice
+    process.wait(60)
+    time.sleep(1.0)
+    again = begun()
+    assert again.communicate(timeout=240)[0].decode().strip().splitlines()[-1] == "{}"
+    assert contents(store) == uninterrupted
+
+
+def episodes_in(store: Path) -> int:
+    if not store.exists():
+        return 0
+    try:
+        with sqlite3.connect(f"file:{store}?mode=ro", uri=True) as connection:
+            return int(connection.execute("SELECT count(*) FROM episodes").fetchone()[0])
+    except sqlite3.Error:  # not made yet
+        return 0
+
+
+def test_what_goes_wrong_in_one_run_is_told_and_the_others_go_on(tmp_path: Path) -> None:
+    wrong = corridor(instances="no-such-instances")
+    troubles = sweep([wrong, RUNS[0]], place(tmp_path), jobs=1, backend="sequential")
+    assert list(troubles) == [name_of(wrong)]
+    assert "no-such-instances" in troubles[name_of(wrong)]
+    assert [run[0] for run in contents(tmp_path / "waypost.db").values()] == ["finished"]
+
+
+def test_two_sweeps_do_not_work_in_the_same_place(tmp_path: Path) -> None:
+    (tmp_path / "checkpoints").mkdir()
+    with (tmp_path / "checkpoints" / "sweep.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        with pytest.raises(ValueError, match="another sweep is at work"):
+            sweep(RUNS[:1], place(tmp_path), jobs=1, backend="sequential")
+
+
+def test_a_cluster_cannot_write_a_file_of_this_machine(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="give --server instead of --store"):
+        sweep(RUNS[:1], place(tmp_path), jobs=1, ray="auto")
+
+
+@pytest.fixture
+def token(tmp_path: Path) -> Iterator[tuple[str, str]]:
+    with serving.background(Settings(database=f"sqlite:///{tmp_path / 'server.db'}"), port=0) as server:
+        user = server.db.write_now(lambda tx: people.ensure_user(tx, "sweeper", "admin"))
+        yield server.url, server.db.write_now(lambda tx: people.create_token(tx, user.id, "sweep")).token
+
+
+def test_a_sweep_can_write_to_a_server(tmp_path: Path, token: tuple[str, str]) -> None:
+    at = Place(tmp_path / "checkpoints", server=token[0], token=token[1])
+    assert sweep(RUNS[:1], at, jobs=1, backend="sequential") == {}
+    assert sweep(RUNS[:1], at, jobs=1, backend="sequential") == {}
+    with at.connect() as connection:
+        assert [run.state for run in connection.learner.runs()] == ["finished"]
+
+
+def test_the_command_refuses_a_figure_that_does_not_exist(tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, ["sweep", "--figure", "mazes", "--store", str(tmp_path / "a.db")])
+    assert done.exit_code == 2
+    assert "those that exist are: maze, published" in done.output
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_lists_algorithms_domains_and_presets_that_exist(tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, ["sweep", "--preset", "no-such", "--store", str(tmp_path / "a.db")])
+    assert done.exit_code == 2
+    assert "those that exist are:" in done.output
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_every_figure_is_made_of_runs_that_can_be_built() -> None:
+    from learner.training import build_learner
+
+    runs = plan.runs_of(plan.find_figure("maze"), seeds=(0,))
+    assert len(set(runs)) == len(runs) > 10
+    for config in runs:
+        build_learner(config, threads=1)
+    assert {type(config) for config in runs} == {TrainConfig}
