@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
+from rich.console import Console
 from rich.progress import TaskID
 
 from learner.commands import (
@@ -55,18 +56,21 @@ def figures(
 
         name = str(store) if store is not None else "runs.db"
         request = make.Request(figure, parse_seeds(seeds), out, report, name)
+        wanted = request.wanted
         with ExitStack() as stack:
+            stack.enter_context(Console(stderr=True).status("Reading runs."))
             sources = [archive.read(folder) for folder in archives or []]
             if store is not None:
-                sources.insert(0, stores.read(stack.enter_context(stores.stored(store)), request.wanted))
+                sources.insert(0, stores.read(stack.enter_context(stores.stored(store)), wanted))
             if server is not None:
                 client = stack.enter_context(stores.served(server, needed(token)))
-                sources.insert(0, stores.read(client, request.wanted))
+                sources.insert(0, stores.read(client, wanted))
         found = make.merge(sources)
         missing = make.missing(request, found)
         if missing and not partial:
             _refuse_missing([make.describe(one, found) for one in missing], make.sweep_command(request, missing))
-        done = make.make(request, found)
+        with Console(stderr=True).status("Drawing."):
+            done = make.make(request, found)
     typer.echo(json.dumps(done) if as_json else "\n".join(done["files"]))
 
 

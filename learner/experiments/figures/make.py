@@ -77,22 +77,33 @@ def describe(config: TrainConfig, found: Found) -> str:
     )
 
 
-def sweep_command(request: Request, runs: Sequence[TrainConfig]) -> str:
-    """Return the command that makes these runs of a figure."""
-    seeds = sorted({config.seed for config in runs})
-    return f"waypost sweep --figure {request.figure} --seeds {_joined(seeds)} --store {shlex.quote(request.store)}"
+def sweep_command(request: Request, runs: Sequence[TrainConfig], store: str | None = None) -> str:
+    """Return the command that makes these runs of a figure, in the request's store or in another."""
+    seeds = _joined(sorted({config.seed for config in runs}))
+    words = ["waypost", "sweep", "--figure", request.figure, "--seeds", seeds, "--store", store or request.store]
+    return shlex.join(words)
 
 
 def make(request: Request, found: Found) -> dict[str, Any]:
     """Draw what can be drawn and return what was written.
 
     Raises:
-        ValueError: none of the runs is there.
+        ValueError: none of the runs is there, or a file cannot be written.
     """
     comparisons = [Comparison.of(group, request.seeds, found) for group in request.groups]
     comparisons = [comparison for comparison in comparisons if comparison.runs]
     if not comparisons:
         raise ValueError("none of the runs is there, so there is nothing to draw")
+    lacking = [describe(config, found) for config in missing(request, found)]
+    try:
+        files = _write(request, comparisons, found, lacking)
+    except OSError as error:
+        raise ValueError(f"cannot write {error.filename}: {error.strerror}") from None
+    runs = sum(config in found for config in request.wanted)
+    return {"figure": request.figure, "runs": runs, "missing": lacking, "files": [str(file) for file in files]}
+
+
+def _write(request: Request, comparisons: Sequence[Comparison], found: Found, lacking: Sequence[str]) -> list[Path]:
     request.out.mkdir(parents=True, exist_ok=True)
     runs = [found[config] for config in request.wanted if config in found]
     files = [archive.write(request.out, runs), tables.write_summary(request.out, comparisons)]
@@ -101,18 +112,20 @@ def make(request: Request, found: Found) -> dict[str, Any]:
         for name, figure in draw.figures_of(comparison):
             names.append(name)
             files += draw.save(figure, request.out, name)
-    lacking = [describe(config, found) for config in missing(request, found)]
     if request.report is not None:
-        commands = [sweep_command(request, request.wanted), _own_command(request, bool(lacking))]
+        commands = [
+            sweep_command(request, request.wanted, _shown(Path(request.store))),
+            _own_command(request, request.report, partial=bool(lacking)),
+        ]
         report.write(request.report, request.out, comparisons, names, commands, lacking)
         files.append(request.report)
-    return {"figure": request.figure, "runs": len(runs), "missing": lacking, "files": [str(file) for file in files]}
+    return files
 
 
-def _own_command(request: Request, partial: bool) -> str:
+def _own_command(request: Request, report: Path, partial: bool) -> str:
     """Return the command that draws all this again from the CSV it wrote."""
     words = ["waypost", "figures", "--figure", request.figure, "--seeds", _joined(request.seeds)]
-    words += ["--from", _shown(request.out), "--out", _shown(request.out), "--report", _shown(request.report)]
+    words += ["--from", _shown(request.out), "--out", _shown(request.out), "--report", _shown(report)]
     return shlex.join([*words, *(["--partial"] if partial else [])])
 
 
@@ -120,8 +133,7 @@ def _joined(seeds: Iterable[int]) -> str:
     return ",".join(map(str, seeds))
 
 
-def _shown(path: Path | None) -> str:
+def _shown(path: Path) -> str:
     """Return a path as somebody else can type it: below the working folder, or its name alone."""
-    assert path is not None
     path = path.resolve()
     return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path.name)

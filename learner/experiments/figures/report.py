@@ -33,6 +33,7 @@ def write(
         commands: what makes the runs, and what draws them.
         missing: the runs that are not there, or not whole.
     """
+    file.parent.mkdir(parents=True, exist_ok=True)
     beside = Path(os.path.relpath(folder, file.parent)).as_posix()
     lines = list(_lines(beside, comparisons, figures, commands, missing))
     file.write_text("\n".join(lines), encoding="utf-8")
