@@ -9,29 +9,31 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
+from learner.experiments.figures.look import DPI, RC
 from learner.experiments.theory.grid import EPISODES, Row, worst
 from learner.experiments.theory.simulation import Episodes
 
-# Okabe and Ito's colors, which people with any color vision tell apart; marks differ in form too.
-_BLUE, _VERMILION, _GREEN, _PURPLE, _GREY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#666666"
+# Okabe and Ito's colors; the algorithms have theirs in every figure (`learner/experiments/figures/look.py`).
+_BLUE, _GREEN, _VERMILLION, _PURPLE, _GREY = "#0072B2", "#009E73", "#D55E00", "#CC79A7", "0.4"
 _FILLED: dict[Episodes, Literal["full", "none"]] = {"worst": "full", "random": "none"}
 
 
 def draw(rows: Sequence[Row]) -> Figure:
     """Return the figure; nothing is shown, so no display is needed."""
-    figure = Figure(figsize=(11, 5.4), layout="constrained")
-    left, right = figure.subplots(1, 2)
-    _draw_ratios(left, rows)
-    _draw_costs(right, rows)
+    with rc_context(RC):
+        figure = Figure(figsize=(11, 5.4), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        _draw_ratios(left, rows)
+        _draw_costs(right, rows)
     return figure
 
 
 def save(rows: Sequence[Row], folder: Path) -> None:
     """Write theory.svg and theory.png into a folder."""
-    figure = draw(rows)
-    with rc_context({"svg.hashsalt": "theory"}):  # the same numbers give the same file
-        figure.savefig(folder / "theory.svg", metadata={"Date": None})
-    figure.savefig(folder / "theory.png", dpi=150)
+    with rc_context(RC):
+        figure = draw(rows)
+        figure.savefig(folder / "theory.svg", metadata={"Date": None})  # the same numbers give the same file
+        figure.savefig(folder / "theory.png", dpi=DPI)
 
 
 def _draw_ratios(axes: Axes, rows: Sequence[Row]) -> None:
@@ -41,7 +43,7 @@ def _draw_ratios(axes: Axes, rows: Sequence[Row]) -> None:
     bounds = sorted({(row.proportion, row.ratio_of_bounds) for row in rows})
     axes.plot(*zip(*bounds, strict=True), "_", color="black", markersize=26, label="ratio of the two bounds")
     # Set a little apart, so that they do not hide each other.
-    for episodes, color, marker, apart in zip(EPISODES, (_GREEN, _PURPLE), "os", (0.96, 1.04), strict=True):
+    for episodes, color, marker, apart in zip(EPISODES, (_VERMILLION, _PURPLE), "oD", (0.96, 1.04), strict=True):
         found = [(row.proportion * apart, row.ratio) for row in rows if row.episodes == episodes and row.ratio]
         if found:
             label = f"measured, {episodes} episodes"
@@ -63,7 +65,7 @@ def _draw_costs(axes: Axes, rows: Sequence[Row]) -> None:
     bounds = [side.learning_bound for row in rows for side in (row.hg, row.flat)]
     ends = [min(bounds) / 2, max(bounds) * 1.5]
     axes.plot(ends, ends, color=_GREY, linestyle="--", label="cost = bound")
-    for name, side, color, marker in (("hg-DAgger", "hg", _BLUE, "o"), ("flat DAgger", "flat", _VERMILION, "s")):
+    for name, side, color, marker in (("hg-DAgger", "hg", _BLUE, "o"), ("flat DAgger", "flat", _GREEN, "^")):
         for episodes in EPISODES:
             sides = [getattr(row, side) for row in rows if row.episodes == episodes]
             axes.plot(

@@ -36,4 +36,4 @@ def _line(row: Row) -> str:
         for side in (row.hg, row.flat)
     )
     ratio = "none" if row.ratio is None else f"{row.ratio:.2f}"
-    return f"{sizes}{sides}{ratio:>8}{row.ratio_of_bounds:8.2f}{row.proportion:8.2f}"
+    return f"{sizes}{sides}{ratio:>8}{row.ratio_of_bounds:8.2f}{row.proportion:8.3f}"
