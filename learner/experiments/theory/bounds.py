@@ -1,4 +1,4 @@
-"""Theorems 1 and 2 of Le et al. 2018 and the ratio that follows from them (section 4.3), for the prices of a run."""
+"""Theorems 1 and 2 of Le et al. 2018 and the ratio that follows from them (section 4.2), for the prices of a run."""
 
 from dataclasses import dataclass
 from math import log2

@@ -1,4 +1,4 @@
-"""The finite policy classes M and Pi_LO of the analysis (Le et al. 2018, section 4.3), drawn at random.
+"""The finite policy classes M and Pi_LO of the analysis (Le et al. 2018, section 4.2), drawn at random.
 
 A policy is a table from positions to choices. Among the policies of a class is the expert's: the task is realizable.
 """

@@ -1,4 +1,4 @@
-"""The halving algorithm (Shalev-Shwartz 2012; Le et al. 2018, section 4.3) on finite classes of policies.
+"""The halving algorithm (Shalev-Shwartz 2012; Le et al. 2018, section 4.2) on finite classes of policies.
 
 It "maintains a version space over policies, acts by a majority decision, and when it makes a mistake, it removes all
 the erring policies from the version space". With several choices the one with most votes is taken. If it was wrong, the
