@@ -18,7 +18,7 @@ from learner.types import FLAT, META, PolicyKey
 
 
 def worst_instance(task: Task, classes: Classes, policies: dict[PolicyKey, VersionSpace]) -> Any | None:
-    """Return the instance that leaves most policies after the mistake it shows; None if none is of this form."""
+    """Return the instance whose one mistake leaves most policies; None if there is none of this form."""
     right = classes.pi_star[classes.mu_star]  # [u, x], the expert's actions
     if FLAT in policies:
         acts, kept, trusted = _flat(policies[FLAT], right)
