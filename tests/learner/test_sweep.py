@@ -36,6 +36,16 @@ if __name__ == "__main__":
     store = Path(sys.argv[1])
     print(sweep(RUNS, Place(store.with_suffix(".checkpoints"), store), jobs=2))
 """
+RAY_SCRIPT = """
+import sys
+from pathlib import Path
+from learner.experiments.sweep import Place, sweep
+from tests.learner.test_sweep import RUNS
+
+if __name__ == "__main__":
+    place = Place(Path(sys.argv[1]), server=sys.argv[2], token=sys.argv[3])
+    print(sweep(RUNS[:2], place, jobs=2, ray="auto"))
+"""
 
 
 def place(folder: Path) -> Place:
@@ -176,3 +186,14 @@ def test_every_figure_is_made_of_runs_that_can_be_built() -> None:
     for config in runs:
         build_learner(config, threads=1)
     assert {type(config) for config in runs} == {TrainConfig}
+
+
+def test_the_same_sweep_runs_on_a_ray_cluster(tmp_path: Path, token: tuple[str, str]) -> None:
+    pytest.importorskip("ray", reason="Ray has no wheel for this Python")
+    at = Place(tmp_path / "checkpoints", server=token[0], token=token[1])
+    command = [sys.executable, "-c", RAY_SCRIPT, str(at.checkpoints), at.server, at.token]
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path.cwd()), *filter(None, sys.path)])}
+    done = subprocess.run(command, env=env, capture_output=True, text=True)  # Ray leaves threads and sockets behind
+    assert done.stdout.strip().splitlines()[-1:] == ["{}"], done.stderr
+    with at.connect() as connection:
+        assert sorted(run.state for run in connection.learner.runs()) == ["finished", "finished"]
