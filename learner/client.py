@@ -73,8 +73,8 @@ class Client:
         return self._call(wire.Run, "POST", "/runs", run)
 
     def runs(self) -> list[wire.Run]:
-        """List runs, newest first."""
-        return self._call(wire.RunList, "GET", "/runs").runs
+        """List runs, newest first; the newest thousand, if there are more."""
+        return self._call(wire.RunList, "GET", "/runs", params={"limit": 1_000}).runs
 
     def run(self, run: str) -> wire.Run:
         """Return a run."""
