@@ -2,6 +2,7 @@
 # Pass a command's options on with ARGS, as in: make demo ARGS="--port 8001"
 
 VENV := .venv
+PEERS := $(VENV)/peers
 PYTHON := $(VENV)/bin/python
 PIP := $(PYTHON) -m pip --disable-pip-version-check -qq
 WITH_NODE := scripts/with-node
@@ -53,7 +54,7 @@ lint-web: web/node_modules/.stamp $(VENV)/.dev
 	@cd web && ../$(WITH_NODE) npm run --silent format:check
 	@cd web && ../$(WITH_NODE) npm run --silent types:check
 
-bench: $(VENV)/.dev
+bench: $(VENV)/.dev $(PEERS)/.installed
 	@set -e; for file in bench/*.py; do echo "== $$file"; PYTHONPATH=. $(PYTHON) "$$file" $(ARGS); done
 
 clean:
@@ -66,6 +67,10 @@ clean:
 # A virtual environment of another folder, or one whose Python is gone, is no good: forget its stamps.
 ifneq ($(shell scripts/venv-works $(VENV)),yes)
 $(shell rm -f $(VENV)/.made $(VENV)/.base $(VENV)/.learner $(VENV)/.dev)
+endif
+
+ifneq ($(shell scripts/venv-works $(PEERS)),yes)
+$(shell rm -f $(PEERS)/.installed)
 endif
 
 $(VENV)/.made:
@@ -85,6 +90,13 @@ $(VENV)/.dev: pyproject.toml $(VENV)/.made
 	@echo "Installing the Python packages, those of the tests too; PyTorch is large, so the first time takes a minute or more."
 	@$(PIP) install -e '.[learner,dev]'
 	@touch $(VENV)/.base $(VENV)/.learner $@
+
+# What bench/ measures beside ours needs packages that ours cannot live with. Without it the tables say so.
+$(PEERS)/.installed: bench/peers/requirements.txt $(VENV)/.made
+	@echo "Installing what the measurements compare with; it has a PyTorch of its own, so this takes some minutes."
+	@if PYTHON_FOR_VENV=$(PYTHON) scripts/make-venv $(PEERS) && \
+	  $(PEERS)/bin/python -m pip --disable-pip-version-check -qq install -r $<; \
+	then touch $@; else echo "It could not be installed; the measurements go on without it."; fi
 
 # Where there is no recent Node, scripts/with-node brings one into the virtual environment.
 web/node_modules/.stamp: web/package.json web/package-lock.json | $(VENV)/.made
