@@ -1,23 +1,31 @@
 """How fast policies learn and act, with the paper preset's network: `python bench/training.py`.
 
-Training: samples a second of `Policy.train` on maze observations, beside a plain torch loop on the same network, data
-and batch size in the same run, as one would write it (32-bit floats) and with the same mixed precision and layout.
-Acting: the latency of one state and of a batch. One thread, as a learner gives to each policy. Speeds are the best of
-several rounds, ratios the median over the rounds. Prints tables; asserts nothing.
+Training: samples a second of `Policy.train` on maze observations, beside others on the same network, data and batch
+size in the same run: a plain torch loop, as one would write it (32-bit floats) and with the same mixed precision and
+layout; and the `imitation` library's behavioral cloning, in 32-bit floats and a virtual environment of its own, which
+does more in a step (`peers/behavioral_cloning.py` says what). Acting: the latency of one state and of a batch. One
+thread, as a learner gives to each policy. Speeds are the best of several rounds, ratios the median over the rounds.
+Prints tables; asserts nothing.
 """
 
 import argparse
+import math
 import os
 import platform
 import statistics
+import tempfile
 import time
 from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 import torch
 from torch import nn
 
+from bench.peers.client import Missing, Peer
+from bench.peers.network import table_1
 from learner.datasets import Dataset, Row
 from learner.domains.maze.domain import MazeDomain
 from learner.domains.maze.generator import maze_set
@@ -28,6 +36,7 @@ from learner.simulator import Simulator
 
 ROUNDS = 5
 SPEC = PAPER.train_hi
+Round = Callable[[], float]  # does a round of work and returns its seconds
 
 
 def machine(policy: Policy) -> str:
@@ -51,16 +60,10 @@ def observations(n: int) -> Dataset:
 
 def plain_network(dropout: float) -> nn.Sequential:
     """Table 1 with torch's own layers."""
-    layers: list[nn.Module] = []
-    channels = 3
-    for width in PAPER.network.channels:
-        layers += [nn.Conv2d(channels, width, 3, padding="same"), nn.ReLU(), nn.Conv2d(width, width, 3), nn.ReLU()]
-        layers += [nn.MaxPool2d(2), nn.Dropout(dropout)]
-        channels = width
-    layers += [nn.Flatten(), nn.LazyLinear(PAPER.network.hidden), nn.ReLU(), nn.Dropout(dropout)]
-    network = nn.Sequential(*layers, nn.Linear(PAPER.network.hidden, len(SUBGOALS)))
-    network(torch.zeros(1, 3, 17, 17))
-    return network
+    network = PAPER.network
+    return nn.Sequential(
+        *table_1((3, 17, 17), network.channels, network.hidden, dropout), nn.Linear(network.hidden, len(SUBGOALS))
+    )
 
 
 def plain_loop(data: Dataset, rows: int, bf16: bool) -> Callable[[], None]:
@@ -84,19 +87,37 @@ def plain_loop(data: Dataset, rows: int, bf16: bool) -> Callable[[], None]:
     return train
 
 
-def seconds(work: Callable[[], object]) -> float:
-    """Measure one round."""
-    began = time.perf_counter()
-    work()
-    return time.perf_counter() - began
+def imitation(data: Dataset, folder: Path) -> Peer:
+    """Hand the data over to the library that is trained beside ours."""
+    np.savez(folder / "data.npz", observations=data.observations.numpy(), labels=data.labels[:, 0].numpy())
+    return Peer(
+        "behavioral_cloning",
+        data=str(folder / "data.npz"),
+        choices=len(SUBGOALS),
+        batch=SPEC.batch,
+        learning_rate=SPEC.learning_rate,
+        dropout=SPEC.dropout,
+        **asdict(PAPER.network),
+    )
 
 
-def in_turns(works: dict[str, Callable[[], object]]) -> dict[str, list[float]]:
+def timed(work: Callable[[], object]) -> Round:
+    """Measure what runs in this process."""
+
+    def one() -> float:
+        began = time.perf_counter()
+        work()
+        return time.perf_counter() - began
+
+    return one
+
+
+def in_turns(rounds: dict[str, Round]) -> dict[str, list[float]]:
     """Measure each in turn, so that ratios are of figures taken side by side; the first round only warms up."""
-    taken: dict[str, list[float]] = {name: [] for name in works}
+    taken: dict[str, list[float]] = {name: [] for name in rounds}
     for _ in range(1 + ROUNDS):
-        for name, work in works.items():
-            taken[name].append(seconds(work))
+        for name, one in rounds.items():
+            taken[name].append(one())
     return {name: times[1:] for name, times in taken.items()}
 
 
@@ -108,16 +129,26 @@ def ratio(taken: dict[str, list[float]], limit: str, name: str) -> float:
 def print_training(policy: Policy, data: Dataset) -> None:
     rows = min(max(SPEC.passes * len(data), SPEC.least), SPEC.most)
     same = f"plain torch, {'bf16, channels last' if policy.bf16 else 'channels last'}"
-    works: dict[str, Callable[[], object]] = {
-        "Policy.train": lambda: policy.train(data),
-        same: plain_loop(data, rows, bf16=policy.bf16),
-        "plain torch": plain_loop(data, rows, bf16=False),
+    rounds = {
+        "Policy.train": timed(lambda: policy.train(data)),
+        same: timed(plain_loop(data, rows, bf16=policy.bf16)),
+        "plain torch": timed(plain_loop(data, rows, bf16=False)),
     }
-    taken = in_turns(works)
+    absent = ""
+    with ExitStack() as stack:
+        try:
+            peer = stack.enter_context(imitation(data, Path(stack.enter_context(tempfile.TemporaryDirectory()))))
+            peer.seconds(batches=1)  # fails now if it fails
+            rounds[peer.versions] = lambda: peer.seconds(batches=math.ceil(rows / SPEC.batch))
+        except Missing as why:
+            absent = f"| imitation | not measured: {why} | |"
+        taken = in_turns(rounds)
     print(f"| training, batch {SPEC.batch} | samples/s | Policy.train beside it |")
     print("|---|---|---|")
     for name, times in taken.items():
         print(f"| {name} | {rows / min(times):,.0f} | {ratio(taken, name, 'Policy.train'):.2f} |")
+    if absent:
+        print(absent)
 
 
 def print_latency(policy: Policy, data: Dataset) -> None:
@@ -137,7 +168,7 @@ def print_latency(policy: Policy, data: Dataset) -> None:
             for _ in range(calls):
                 network(inputs)
 
-        taken = in_turns({"Policy": act, "plain": plain})
+        taken = in_turns({"Policy": timed(act), "plain": timed(plain)})
         ms = [1e3 * min(taken[name]) / calls for name in ("Policy", "plain")]
         print(f"| batch {batch} | {ms[0]:.3f} | {ms[1]:.3f} | {ratio(taken, 'plain', 'Policy'):.2f} |")
 
