@@ -1,29 +1,37 @@
 """How many steps a second the maze environment takes: `python bench/environment.py`.
 
 Beside it, in the same run, a bare limit: the same moves and the same observations in a plain numpy loop without
-gymnasium. Speeds are the best of several rounds, ratios the median over the rounds. MiniGrid's FourRooms, the nearest
-public environment, is measured too where `minigrid` is installed. Prints a table; asserts nothing.
+gymnasium; and MiniGrid's FourRooms, the nearest public environment, with the same loop in a virtual environment of
+its own. It does other work in a step, so that is no race (`peers/four_rooms.py` says what differs). Actions are random.
+Speeds are the best of several rounds, ratios the median over the rounds. Prints tables; asserts nothing.
 """
 
 import argparse
-import importlib.util
 import os
 import platform
 import statistics
 import time
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 
 import gymnasium
 import numpy as np
 
+from bench.peers.client import Missing, Peer
+from bench.peers.stepping import random_steps
 from learner.domains.maze.env import AGENT, LAVA, MAX_STEPS, TARGET, TRAIL, MazeEnv
 from learner.domains.maze.generator import maze_set
 from learner.domains.maze.maze import MOVES, SIZE
 
 BATCH = 16
 ROUNDS = 5
-Loop = Callable[[int], None]
+FEWER = 10  # FourRooms takes a tenth of the steps
+FORMS = ("unwrapped", "as made", "ImgObsWrapper", "FullyObsWrapper")
+ONE, VECTOR = "MazeEnv, one", f"MazeEnv, SyncVectorEnv of {BATCH}"
+LIMITS = {"bare numpy, one maze": ONE, f"bare numpy, {BATCH} mazes at once": VECTOR}
+Loop = Callable[[int], None]  # takes a number of steps
+Timed = Callable[[int], float]  # takes a number of steps and returns how many a second
 
 
 def machine() -> str:
@@ -35,20 +43,6 @@ def machine() -> str:
     return (
         f"{model}, {os.cpu_count()} cores, load {load:.1f}, Python {platform.python_version()}, numpy {np.__version__}"
     )
-
-
-def single(env: gymnasium.Env) -> Loop:
-    """Random actions in one environment, reset where episodes end."""
-
-    def loop(steps: int) -> None:
-        actions = np.random.default_rng(0).integers(env.action_space.n, size=steps)
-        env.reset(seed=0)
-        for action in actions:
-            _, _, terminated, truncated, _ = env.step(action)
-            if terminated or truncated:
-                env.reset()
-
-    return loop
 
 
 def batched(make: Callable[[], gymnasium.Env]) -> Loop:
@@ -115,11 +109,56 @@ def bare_batched(steps: int) -> None:
             pixels[ended], cells[ended], counts[ended] = first[chosen[ended]], starts[chosen[ended]], 0
 
 
-def steps_a_second(loop: Loop, steps: int) -> float:
-    """Measure one round."""
-    began = time.perf_counter()
-    loop(steps)
-    return steps / (time.perf_counter() - began)
+def timed(loop: Loop) -> Timed:
+    """Measure what runs in this process."""
+
+    def steps_a_second(steps: int) -> float:
+        began = time.perf_counter()
+        loop(steps)
+        return steps / (time.perf_counter() - began)
+
+    return steps_a_second
+
+
+def minigrid(peer: Peer, form: str) -> Timed:
+    """Measure one form of FourRooms: fewer steps, as each takes longer."""
+
+    def steps_a_second(steps: int) -> float:
+        return steps // FEWER / peer.seconds(form=form, steps=steps // FEWER)
+
+    return steps_a_second
+
+
+def in_turns(measured: dict[str, Timed], steps: int) -> dict[str, list[float]]:
+    """Measure each in turn, so that each ratio is of figures taken side by side; the first round only warms up."""
+    speeds: dict[str, list[float]] = {name: [] for name in measured}
+    for _ in range(1 + ROUNDS):
+        for name, steps_a_second in measured.items():
+            speeds[name].append(steps_a_second(steps))
+    return {name: values[1:] for name, values in speeds.items()}
+
+
+def ratio(speeds: dict[str, list[float]], name: str, limit: str) -> float:
+    """How many times as fast `name` is as `limit`."""
+    return statistics.median(a / b for a, b in zip(speeds[name], speeds[limit], strict=True))
+
+
+def print_limits(speeds: dict[str, list[float]]) -> None:
+    print("| environment | steps/s | beside | ratio |")
+    print("|---|---|---|---|")
+    for limit, ours in LIMITS.items():
+        print(f"| {limit} | {max(speeds[limit]):,.0f} |  |  |")
+        print(f"| {ours} | {max(speeds[ours]):,.0f} | {limit} | {ratio(speeds, ours, limit):.2f} |")
+
+
+def print_minigrid(speeds: dict[str, list[float]], said: str) -> None:
+    print(f"\nMiniGrid-FourRooms-v0: {said}")
+    if FORMS[0] not in speeds:
+        return
+    print(f"\n| MiniGrid-FourRooms-v0, one | steps/s | {ONE} beside it |")
+    print("|---|---|---|")
+    for form in FORMS:
+        print(f"| {form} | {max(speeds[form]):,.0f} | {ratio(speeds, ONE, form):.1f} |")
 
 
 def main() -> None:
@@ -127,28 +166,22 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=20_000, help="steps a round")
     steps = parser.parse_args().steps
     maze_set("random")
-    rows: list[tuple[str, Loop, str | None]] = [
-        ("bare numpy, one maze", bare, None),
-        ("MazeEnv, one", single(MazeEnv()), "bare numpy, one maze"),
-        (f"bare numpy, {BATCH} mazes at once", bare_batched, None),
-        (f"MazeEnv, SyncVectorEnv of {BATCH}", batched(MazeEnv), f"bare numpy, {BATCH} mazes at once"),
-    ]
-    if importlib.util.find_spec("minigrid"):
-        import minigrid  # noqa: F401 - registers its environments
-
-        rows.append(("MiniGrid-FourRooms-v0, one", single(gymnasium.make("MiniGrid-FourRooms-v0")), "MazeEnv, one"))
-    speeds: dict[str, list[float]] = {name: [] for name, *_ in rows}
-    for _ in range(ROUNDS):  # in turns, so that each ratio is of figures taken side by side
-        for name, loop, _ in rows:
-            speeds[name].append(steps_a_second(loop, steps))
+    ours = (bare, random_steps(MazeEnv()), bare_batched, batched(MazeEnv))
+    names = [name for pair in LIMITS.items() for name in pair]
+    measured = {name: timed(loop) for name, loop in zip(names, ours, strict=True)}
+    with ExitStack() as stack:
+        try:
+            peer = stack.enter_context(Peer("four_rooms"))
+            for form in FORMS:
+                peer.seconds(form=form, steps=1)  # fails now if it fails
+            measured |= {form: minigrid(peer, form) for form in FORMS}
+            said = f"{peer.versions}; {steps // FEWER} steps a round"
+        except Missing as why:
+            said = f"not measured: {why}"
+        speeds = in_turns(measured, steps)
     print(machine())
-    print("| environment | steps/s | beside | ratio |")
-    print("|---|---|---|---|")
-    for name, _, limit in rows:
-        ratio = (
-            f"{statistics.median(a / b for a, b in zip(speeds[name], speeds[limit], strict=True)):.2f}" if limit else ""
-        )
-        print(f"| {name} | {max(speeds[name]):,.0f} | {limit or ''} | {ratio} |")
+    print_limits(speeds)
+    print_minigrid(speeds, said)
 
 
 if __name__ == "__main__":
