@@ -6,7 +6,7 @@ segment should have ended, and beta_g at a segment's first state, where it is ne
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import torch
@@ -112,11 +112,21 @@ class Labels:
             choice = UNLABELED if row.choice == UNLABELED else names[row.choice]
             return Row(symmetry.observe(row.observation), choice, row.termination)
 
+        def experienced(key: PolicyKey, transition: Transition) -> Transition:
+            names = symmetry.subgoals if key == META else symmetry.actions
+            return replace(
+                transition,
+                observation=symmetry.observe(transition.observation),
+                choice=names[transition.choice],
+                next_observation=symmetry.observe(transition.next_observation),
+            )
+
+        def renamed(key: PolicyKey) -> PolicyKey:
+            return symmetry.subgoals[key] if key >= 0 else key
+
         return Labels(
-            {
-                (symmetry.subgoals[key] if key >= 0 else key): [changed(key, row) for row in rows]
-                for key, rows in self.rows.items()
-            }
+            {renamed(key): [changed(key, row) for row in rows] for key, rows in self.rows.items()},
+            {renamed(key): [experienced(key, one) for one in found] for key, found in self.transitions.items()},
         )
 
     def append_flat(self, trajectory: Trajectory, good_actions: Sequence[Action]) -> None:

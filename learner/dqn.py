@@ -22,16 +22,17 @@ class DqnSpec:
     learning_rate: float = 5e-4
     batch: int = 64
     update_every: int = 4  # steps of the learner
-    discount: float = 0.95  # gamma
-    target_every: int = 250  # updates
-    capacity: int = 50_000  # transitions
+    discount: float = 0.9  # gamma
+    target_every: int = 100  # updates
+    capacity: int = 100_000  # transitions
     least: int = 200  # transitions before the first update
     alpha: float = 0.6  # exponent of priorities
     beta: float = 0.4  # exponent of the weights that make up for them, at first; 1 after `beta_updates`
     beta_updates: int = 20_000
-    epsilon: float = 0.02  # of epsilon-greedy in training, at last; it begins at 1
-    epsilon_steps: int = 1_000  # steps of the same Q-function until then
+    # epsilon of epsilon-greedy in training, by the steps of the same Q-function; in between it goes in straight lines
+    epsilon: tuple[tuple[int, float], ...] = ((0, 1.0), (2_000, 0.1), (12_000, 0.01))
     pseudo: PseudoReward = field(default_factory=PseudoReward)
+    symmetries: bool = True  # whether each transition is also learned from in the domain's other symmetries
     bf16: bool = True
 
 
@@ -133,8 +134,8 @@ class QFunction:
 
     @property
     def epsilon(self) -> float:
-        """The probability of a random choice, in training: from 1 down to `spec.epsilon`, then constant."""
-        return max(self.spec.epsilon, 1 - (1 - self.spec.epsilon) * self.steps / self.spec.epsilon_steps)
+        """The probability of a random choice, in training."""
+        return float(np.interp(self.steps, *zip(*self.spec.epsilon, strict=True)))
 
     def step(self) -> None:
         """Count one step under this Q-function; update it when it is time (line 11 of Algorithm 3)."""

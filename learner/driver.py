@@ -32,6 +32,7 @@ POLL_SECONDS = 30.0
 CHECKPOINT_EVERY = 25  # episodes
 _TRAIN_ORDER, _TEST_ORDER, _VARIATION = 2, 3, 4  # streams of randomness, beside those of the rollouts
 _LARGEST_BATCH = 64  # rollouts in step, when looking for one that fails
+_MOST_DRAWS = 250  # without a failure, the learner has nothing left to ask about for now
 
 
 @dataclass
@@ -155,12 +156,12 @@ class Driver:
         return self._instances.vary(instance, np.random.default_rng([self._config.seed, _VARIATION, draw]))
 
     def _failing_draw(self) -> int:
-        """Return the next draw on whose instance the present policies fail; the next one if none does in a whole lap.
+        """Return the next draw on whose instance the present policies fail; just the next one if they hardly do.
 
         Rollouts go in batches that grow while none fails.
         """
         first, size = self._draws, 2
-        while first < self._draws + len(self._instances.train):
+        while first < self._draws + _MOST_DRAWS:
             draws = range(first, first + size)
             instances = [self._train_instance(draw) for draw in draws]
             for draw, success in zip(draws, attempt(self._learner, instances, TRAIN, draws), strict=True):

@@ -24,8 +24,8 @@ class PseudoReward:
     """pseudo(s; g) of Algorithm 3 (line 10): what carrying a subgoal out brings."""
 
     reached: float = 1.0
-    failed: float = -1.0
-    step: float = -0.01  # -kappa
+    failed: float = -0.5
+    step: float = -0.02  # -kappa
 
 
 def of_subgoal(segment: Segment, pseudo: PseudoReward) -> list[Transition]:

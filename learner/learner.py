@@ -123,13 +123,17 @@ class Learner:
         return roll_out(simulator, instance, manner)
 
     def learn(self, labels: Labels) -> None:
-        """Append to the data buffers, then Train the policies whose buffer grew (docs/paper.md, deviation 6)."""
-        for key, transitions in labels.transitions.items():
-            self.q[key].replay.add(transitions)
-        grown: set[PolicyKey] = set()
-        symmetries = self.domain.symmetries if self.preset.symmetries else ()
-        for seen in (labels, *(labels.seen_through(symmetry) for symmetry in symmetries)):
-            for key, rows in seen.rows.items():
+        """Append to the data buffers, then Train the policies whose turn it is (docs/paper.md, deviation 6)."""
+        sizes = {key: len(data) for key, data in self.data.items()}
+        symmetries = self.domain.symmetries
+        for place, seen in enumerate((labels, *(labels.seen_through(symmetry) for symmetry in symmetries))):
+            for key, rows in seen.rows.items() if place == 0 or self.preset.symmetries else ():
                 self.data[key].append(rows)
-                grown |= {key} if rows else set()
-        list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), sorted(grown)))
+            for key, transitions in seen.transitions.items() if place == 0 or self.preset.dqn.symmetries else ():
+                self.q[key].replay.add(transitions)
+        due = [
+            key
+            for key, policy in self.imitators.items()
+            if policy.spec.every_episode or len(self.data[key]) > sizes[key]
+        ]
+        list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), due))

@@ -27,6 +27,7 @@ class TrainSpec:
     least: int = 1024  # but so many rows at least: a small buffer is passed over more often,
     most: int = 6144  # and so many at most
     dropout: float = 0.5
+    every_episode: bool = False  # rather than only after episodes that added to the buffer
     bf16: bool = True  # mixed precision where the processor has bf16 arithmetic
 
 

@@ -92,6 +92,8 @@ def execute_subgoal(
         rewards.append(simulator.reward)
         if manner.terminations_given:
             outcome = simulator.outcome(state, subgoal)
+            if outcome is None and len(actions) == simulator.domain.horizons.lo:
+                outcome = "failed"  # a subpolicy that goes to and fro must not find that harmless
             terminated = outcome is not None
     return Segment(subgoal, tuple(states), tuple(actions), terminated, tuple(rewards), outcome, simulator.final)
 

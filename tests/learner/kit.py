@@ -30,7 +30,9 @@ TINY = Preset(
     train_lo=TINY_TRAIN,
     train_flat=TINY_TRAIN,
     train_hi_hybrid=TINY_TRAIN,
-    dqn=DqnSpec(learning_rate=5e-3, batch=16, least=32, update_every=2, epsilon_steps=200, target_every=20),
+    dqn=DqnSpec(
+        learning_rate=5e-3, batch=16, least=32, update_every=2, epsilon=((0, 1.0), (200, 0.02)), target_every=20
+    ),
     choosing=Choosing(temperature=0.5, termination_threshold=0.9),
 )
 """A preset for runs of a second, in which policies make all kinds of mistakes."""

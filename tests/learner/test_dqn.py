@@ -42,7 +42,14 @@ def learned(spec: DqnSpec, steps: int, seed: int = 0) -> QFunction:
 
 
 SPEC = DqnSpec(
-    learning_rate=1e-2, batch=16, update_every=1, discount=0.9, target_every=20, least=1, epsilon_steps=100, bf16=False
+    learning_rate=1e-2,
+    batch=16,
+    update_every=1,
+    discount=0.9,
+    target_every=20,
+    least=1,
+    epsilon=((0, 1.0), (100, 0.02)),
+    bf16=False,
 )
 
 
@@ -68,7 +75,7 @@ def test_the_best_choice_is_chosen_by_one_network_and_valued_by_the_other() -> N
     q.replay.add([Transition(one_hot(0), 0, 0.0, one_hot(1), 1)])
     q.step()
     ((_, found),) = [q.replay.sample(1, torch.Generator().manual_seed(0))]
-    assert found["priority"].item() == pytest.approx(0.95 * 3.0, abs=1e-3)  # the error: wanted 0.95 * 3, was 0
+    assert found["priority"].item() == pytest.approx(0.9 * 3.0, abs=1e-3)  # the error: wanted 0.9 * 3, was 0
 
 
 def test_exploration_goes_down_to_its_floor_with_the_steps_of_the_same_q_function() -> None:
@@ -79,8 +86,8 @@ def test_exploration_goes_down_to_its_floor_with_the_steps_of_the_same_q_functio
         q.step()
     assert epsilons[0] == 1
     assert all(a >= b for a, b in pairwise(epsilons))
-    assert epsilons[50] == pytest.approx((1 + SPEC.epsilon) / 2)
-    assert epsilons[100:] == pytest.approx([SPEC.epsilon] * 50)
+    assert epsilons[50] == pytest.approx(0.51)
+    assert epsilons[100:] == pytest.approx([0.02] * 50)
 
 
 def test_nothing_is_learned_before_there_is_the_least_experience() -> None:

@@ -174,3 +174,17 @@ def test_choices_are_drawn_from_the_softmax_at_the_temperature() -> None:
     drawn = np.bincount([choose(logits, Choosing(temperature=0.1), rng) for _ in range(4_000)], minlength=3) / 4_000
     np.testing.assert_allclose(drawn, np.exp([0, 1, 2]) / np.exp([0, 1, 2]).sum(), atol=0.03)
     assert choose(logits, GREEDY, rng) == 2
+
+
+def test_with_given_terminations_a_subgoal_ends_where_the_domain_says_and_has_failed_when_its_horizon_is_spent() -> (
+    None
+):
+    manner = Manner(GREEDY, np.random.default_rng(0), h_hi=2, terminations_given=True)
+    sigma = run(
+        hierarchical_rollout(Simulator(CorridorDomain()), Corridor(1, 12), manner),
+        corridor_policies(beta=1.0),  # which would end every segment at once
+    )
+    assert [(len(s.actions), s.outcome, s.terminated) for s in sigma] == [(3, "reached", True), (4, "reached", True)]
+    backward: Any = {META: Fixed(WEST, 3), WEST: Fixed(1, 2)}  # walks east, toward no aim of the subgoal west
+    (first, *_) = run(hierarchical_rollout(Simulator(CorridorDomain()), Corridor(1, 12), manner), backward)
+    assert (len(first.actions), first.outcome) == (6, "failed")

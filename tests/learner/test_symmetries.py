@@ -1,6 +1,7 @@
 """Labels stay right when the picture is turned or mirrored: the expert says the same of the changed maze."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,8 @@ from learner.domains.maze.domain import MazeDomain
 from learner.domains.maze.env import MazeEnv
 from learner.domains.maze.maze import Cell, Maze
 from learner.domains.maze.symmetries import symmetries
-from learner.learner import Learner
+from learner.experience import Transition
+from learner.learner import Learner, Structure
 from learner.types import META
 from tests.learner.kit import TINY, drawn_mazes, examples, mazes, reachable_cells
 
@@ -95,7 +97,33 @@ def test_labels_seen_through_a_symmetry_go_to_the_changed_subgoals_policy() -> N
 def test_a_preset_decides_whether_a_learner_sees_its_labels_through_the_symmetries() -> None:
     labels = Labels({META: [Row(np.zeros((3, 17, 17), np.float32), 1)]})
     for symmetric, rows in ((False, 1), (True, 8)):
-        preset = type(TINY)(0, TINY.network, TINY.train_hi, TINY.train_lo, TINY.choosing, symmetries=symmetric)
+        preset = replace(TINY, symmetries=symmetric)
         learner = Learner(MazeDomain(), preset, seed=0, threads=1)
         learner.learn(labels)
         assert len(learner.data[META]) == rows
+
+
+@examples
+@given(st.sampled_from(MazeDomain().symmetries), st.integers(0, 3), st.integers(0, 3))
+def test_experience_seen_through_a_symmetry_is_of_the_turned_subgoal_and_the_turned_action(
+    symmetry: Symmetry, subgoal: int, action: int
+) -> None:
+    before, after = (np.random.default_rng(n).random((3, 17, 17)).astype(np.float32) for n in range(2))
+    labels = Labels(transitions={subgoal: [Transition(before, action, 0.5, after, 1)]})
+    (key,) = labels.seen_through(symmetry).transitions
+    (seen,) = labels.seen_through(symmetry).transitions[key]
+    assert (key, seen.choice) == (symmetry.subgoals[subgoal], symmetry.actions[action])
+    assert (seen.reward, seen.steps) == (0.5, 1)
+    assert (seen.observation == symmetry.observe(before)).all()
+    assert (seen.next_observation == symmetry.observe(after)).all()
+
+
+@pytest.mark.parametrize(("symmetric", "rows"), [(False, 1), (True, 8)])
+def test_a_preset_decides_whether_q_functions_see_their_experience_through_the_symmetries(
+    symmetric: bool, rows: int
+) -> None:
+    preset = replace(TINY, dqn=replace(TINY.dqn, symmetries=symmetric))
+    learner = Learner(MazeDomain(), preset, seed=0, structure=Structure(q_lo=True), threads=1)
+    picture = np.zeros((3, 17, 17), np.float32)
+    learner.learn(Labels(transitions={0: [Transition(picture, 0, 0.0, picture, 1)]}))
+    assert sum(len(q.replay) for q in learner.q.values()) == rows
