@@ -135,7 +135,8 @@ class QFunction:
     @property
     def epsilon(self) -> float:
         """The probability of a random choice, in training."""
-        return float(np.interp(self.steps, *zip(*self.spec.epsilon, strict=True)))
+        steps, values = zip(*self.spec.epsilon, strict=True)
+        return float(np.interp(float(self.steps), steps, values))
 
     def step(self) -> None:
         """Count one step under this Q-function; update it when it is time (line 11 of Algorithm 3)."""

@@ -176,9 +176,7 @@ def test_choices_are_drawn_from_the_softmax_at_the_temperature() -> None:
     assert choose(logits, GREEDY, rng) == 2
 
 
-def test_with_given_terminations_a_subgoal_ends_where_the_domain_says_and_has_failed_when_its_horizon_is_spent() -> (
-    None
-):
+def test_with_given_terminations_a_subgoal_ends_where_the_domain_says_and_fails_with_its_horizon() -> None:
     manner = Manner(GREEDY, np.random.default_rng(0), h_hi=2, terminations_given=True)
     sigma = run(
         hierarchical_rollout(Simulator(CorridorDomain()), Corridor(1, 12), manner),
