@@ -13,7 +13,7 @@ PAPER = Preset(
     train_hi=TrainSpec(passes=4, least=1024, most=6144, dropout=0.5, every_episode=True),
     train_lo=TrainSpec(passes=1, least=512, most=512, dropout=0.5),
     train_flat=TrainSpec(passes=1, least=1024, most=6144, dropout=0.5, every_episode=True),
-    train_hi_hybrid=TrainSpec(passes=1, least=128, most=2048, dropout=0.5),
+    train_hi_hybrid=TrainSpec(passes=1, least=128, most=512, dropout=0.5),
     dqn=DqnSpec(),
     h_hi=14,
     choosing=Choosing(temperature=0.1, termination_threshold=0.9),
