@@ -1,5 +1,7 @@
 """Train(policy, D): what is learned, from which labels, and that the same seed learns the same."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -162,6 +164,17 @@ def test_policies_whose_buffer_did_not_grow_are_not_trained() -> None:
     learner.learn(labels)
     changed = {key for key, one in learner.policies.items() if not all(equal(before[key], weights(one)))}
     assert changed == {1}
+
+
+def test_policies_that_train_every_episode_do_so_without_new_labels_too() -> None:
+    learner = Learner(
+        CorridorDomain(), replace(TINY, train_hi=replace(TINY.train_hi, every_episode=True)), 0, threads=1
+    )
+    learner.learn(Labels({META: [Row(np.zeros(26, np.float32), 0)], 1: [Row(np.zeros(26, np.float32), 0)]}))
+    before = {key: weights(one) for key, one in learner.policies.items()}
+    learner.learn(Labels())
+    changed = {key for key, one in learner.policies.items() if not all(equal(before[key], weights(one)))}
+    assert changed == {META}
 
 
 def test_training_in_bf16_where_the_processor_has_it_keeps_the_weights_in_32_bits() -> None:
