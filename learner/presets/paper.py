@@ -11,7 +11,7 @@ PAPER = Preset(
     warm_start=200,
     network=NetworkSpec(channels=(32, 64), hidden=256),
     train_hi=TrainSpec(passes=4, least=1024, most=6144, dropout=0.5, every_episode=True),
-    train_lo=TrainSpec(passes=1, least=512, most=512, dropout=0.5),
+    train_lo=TrainSpec(passes=1, least=1024, most=1024, dropout=0.5),
     train_flat=TrainSpec(passes=1, least=1024, most=6144, dropout=0.5, every_episode=True),
     train_hi_hybrid=TrainSpec(passes=1, least=128, most=512, dropout=0.5),
     dqn=DqnSpec(),
