@@ -99,7 +99,7 @@ def weights_hash(learner: Learner) -> str:
     digest = hashlib.sha256()
     for name, tensor in sorted(_weights(learner)):
         digest.update(name.encode())
-        digest.update(tensor.contiguous().numpy().tobytes())
+        digest.update(tensor.cpu().contiguous().numpy().tobytes())
     return digest.hexdigest()
 
 

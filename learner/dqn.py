@@ -8,9 +8,10 @@ import torch
 from numpy.typing import NDArray
 from torch.nn import functional
 
+from learner.device import DEVICE, has_bf16, laid_out, mixed_precision
 from learner.experience import PseudoReward, Transition
 from learner.networks import NetworkSpec, build_network
-from learner.policies import Outputs, channels_last, has_bf16
+from learner.policies import Outputs
 
 Tensors = dict[str, torch.Tensor]
 
@@ -119,7 +120,9 @@ class QFunction:
     ) -> None:
         self.spec, self.choices = spec, choices
         self.rng = torch.Generator().manual_seed(seed)
-        self.network, self.target = (build_network(observation_shape, choices, network, 0, self.rng) for _ in range(2))
+        self.network, self.target = (
+            build_network(observation_shape, choices, network, 0, self.rng).to(DEVICE) for _ in range(2)
+        )
         self.target.load_state_dict(self.network.state_dict())
         self.optimizer = torch.optim.Adam(self.network.parameters(), lr=spec.learning_rate, fused=True)
         self.replay = Replay(observation_shape, spec)
@@ -129,8 +132,8 @@ class QFunction:
     @torch.inference_mode()
     def __call__(self, observations: NDArray[np.float32]) -> Outputs:
         """Evaluate float32[B, observation shape]; the logits of the outputs are Q-values."""
-        values = self.network(torch.from_numpy(observations))
-        return Outputs(values.numpy(), np.zeros(len(values), np.float32))
+        values = self.network(torch.from_numpy(observations).to(DEVICE))
+        return Outputs(values.cpu().numpy(), np.zeros(len(values), np.float32))
 
     @property
     def epsilon(self) -> float:
@@ -146,19 +149,22 @@ class QFunction:
 
     def _update(self) -> None:
         rows, batch = self.replay.sample(self.spec.batch, self.rng)
-        before, after = channels_last(batch["before"].float()), channels_last(batch["after"].float())
-        with torch.autocast("cpu", torch.bfloat16, enabled=self._bf16):
+        choice, reward, discount, weight = (
+            batch[name].to(DEVICE) for name in ("choice", "reward", "discount", "weight")
+        )
+        before, after = laid_out(batch["before"].float()), laid_out(batch["after"].float())
+        with mixed_precision(self._bf16):
             with torch.no_grad():
                 best = self.network(after).argmax(1, keepdim=True)  # chosen by one network, valued by the other
                 following = self.target(after).float().gather(1, best).squeeze(1)
-            values = self.network(before).float().gather(1, batch["choice"].unsqueeze(1)).squeeze(1)
-        wanted = batch["reward"] + batch["discount"] * following
+            values = self.network(before).float().gather(1, choice.unsqueeze(1)).squeeze(1)
+        wanted = reward + discount * following
         beta = self.spec.beta + (1 - self.spec.beta) * min(1.0, self.updates / self.spec.beta_updates)
-        loss = (batch["weight"] ** beta * functional.huber_loss(values, wanted, reduction="none")).mean()
+        loss = (weight**beta * functional.huber_loss(values, wanted, reduction="none")).mean()
         self.optimizer.zero_grad()
         torch.autograd.backward(loss)
         self.optimizer.step()
-        self.replay.prioritize(rows, (wanted - values).detach())
+        self.replay.prioritize(rows, (wanted - values).detach().cpu())
         self.updates += 1
         if self.updates % self.spec.target_every == 0:
             self.target.load_state_dict(self.network.state_dict())

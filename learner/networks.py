@@ -32,9 +32,9 @@ class Dropout(nn.Module):
 
 
 def _random_bytes(like: torch.Tensor, rng: torch.Generator) -> torch.Tensor:
-    """Return uint8 of the shape and the memory layout of a tensor."""
+    """Return uint8 of the shape, the memory layout and the device of a tensor."""
     words = torch.empty(-(-like.numel() // 8), dtype=torch.int64).random_(-(2**63), None, generator=rng)
-    return words.view(torch.uint8).as_strided(like.shape, like.stride())
+    return words.view(torch.uint8).to(like.device).as_strided(like.shape, like.stride())
 
 
 def build_network(

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from torch.nn import functional
 
 from learner.datasets import UNLABELED, Dataset
+from learner.device import DEVICE, has_bf16, laid_out, mixed_precision
 from learner.networks import NetworkSpec, build_network
 
 
@@ -53,7 +54,8 @@ class Policy:
     ) -> None:
         self.choices, self.terminates, self.spec = choices, terminates, train
         self.rng = torch.Generator().manual_seed(seed)
-        self.network = build_network(observation_shape, choices + int(terminates), network, train.dropout, self.rng)
+        outputs = choices + int(terminates)
+        self.network = build_network(observation_shape, outputs, network, train.dropout, self.rng).to(DEVICE)
         self.optimizer = torch.optim.Adam(self.network.parameters(), lr=train.learning_rate, fused=True)
         self.bf16 = train.bf16 and has_bf16()
         self.network.eval()
@@ -61,7 +63,7 @@ class Policy:
     @torch.inference_mode()
     def __call__(self, observations: NDArray[np.float32]) -> Outputs:
         """Evaluate float32[B, observation shape]."""
-        out = self.network(torch.from_numpy(observations))
+        out = self.network(torch.from_numpy(observations).to(DEVICE)).cpu()
         fires = torch.sigmoid(out[:, -1]) if self.terminates else torch.zeros(len(out))
         return Outputs(out[:, : self.choices].numpy(), fires.numpy())
 
@@ -75,9 +77,9 @@ class Policy:
         order = torch.cat([torch.randperm(len(data), generator=self.rng) for _ in range(passes)])[:n_rows]
         self.network.train()
         for rows in torch.split(order, spec.batch):
-            with torch.autocast("cpu", torch.bfloat16, enabled=self.bf16):
-                out = self.network(channels_last(data.observations[rows]))
-            loss = self._loss(out.float(), data.labels[rows])
+            with mixed_precision(self.bf16):
+                out = self.network(laid_out(data.observations[rows]))
+            loss = self._loss(out.float(), data.labels[rows].to(DEVICE))
             self.optimizer.zero_grad()
             torch.autograd.backward(loss)
             self.optimizer.step()
@@ -95,13 +97,3 @@ class Policy:
                 out[:, self.choices], terminations.clamp(min=0).float(), labeled.float(), reduction="sum"
             ) / len(labels)
         return loss
-
-
-def has_bf16() -> bool:
-    """Return whether the processor has arithmetic for bf16."""
-    return bool(torch.ops.mkldnn._is_mkldnn_bf16_supported())
-
-
-def channels_last(batch: torch.Tensor) -> torch.Tensor:
-    """Lay pictures out as the convolutions like them best; leave vectors as they are."""
-    return batch.contiguous(memory_format=torch.channels_last) if batch.dim() == 4 else batch
