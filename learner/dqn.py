@@ -61,9 +61,9 @@ class Replay:
 
     def add(self, transitions: Iterable[Transition]) -> None:
         """Append transitions; each is as important as the most important one so far, so that it is seen soon."""
+        highest = float(self._columns["priority"][: self._size].max()) if self._size else 1.0
         for transition in transitions:
             self._make_room()
-            highest = float(self._columns["priority"][: self._size].max()) if self._size else 1.0
             values = {
                 "before": torch.from_numpy(transition.observation),
                 "after": torch.from_numpy(transition.next_observation),
