@@ -122,6 +122,9 @@ def sweep(
     ] = None,
     server: ServerOption = None,
     token: TokenOption = "",
+    archives: Annotated[
+        list[Path] | None, typer.Option("--from", help="A folder with runs.csv.gz: what is in it is not made again.")
+    ] = None,
     jobs: Annotated[int | None, typer.Option(min=1, help="Runs at once; as many as there are cores if absent.")] = None,
     ray: Annotated[str | None, typer.Option(help="Run on a Ray cluster: its address, or auto.")] = None,
     episodes: Annotated[int | None, typer.Option(min=1, help="Shorter or longer runs than the figure's.")] = None,
@@ -136,11 +139,14 @@ def sweep(
     with learner_errors("Interrupted; the same command goes on, and makes nothing twice."):
         from learner.experiments import plan
         from learner.experiments import sweep as sweeping
+        from learner.experiments.figures import archive
         from learner.training import build_learner
 
         runs = plan.runs_of(plan.find_figure(figure), parse_seeds(seeds))
         runs = [replace(run, episodes=episodes or run.episodes, preset=preset or run.preset) for run in runs]
         build_learner(runs[0], threads=1)  # says what is wrong before there is a store
+        there = {config for folder in archives or [] for config, run in archive.read(folder).items() if run.complete}
+        runs = [run for run in runs if run not in there]
         place = sweeping.Place(
             checkpoint_folder(checkpoints, store, server),
             None if server else store or Path("waypost.db"),

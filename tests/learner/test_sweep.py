@@ -1,6 +1,7 @@
 """A sweep: every run once, whatever interrupts it."""
 
 import fcntl
+import json
 import os
 import signal
 import sqlite3
@@ -11,12 +12,15 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from learner.cli import app
 from learner.config import TrainConfig
 from learner.experiments import plan
+from learner.experiments.figures import archive
+from learner.experiments.figures.data import KINDS, RunCurves
 from learner.experiments.sweep import Place, Progress, name_of, sweep
 from learner.training import embedded
 from server import people, serving
@@ -197,3 +201,12 @@ def test_the_same_sweep_runs_on_a_ray_cluster(tmp_path: Path, token: tuple[str, 
     assert done.stdout.strip().splitlines()[-1:] == ["{}"], done.stderr
     with at.connect() as connection:
         assert sorted(run.state for run in connection.learner.runs()) == ["finished", "finished"]
+
+
+def test_runs_that_an_archive_holds_are_not_made_again(tmp_path: Path) -> None:
+    there = plan.runs_of(plan.find_figure("naive"), seeds=(0,))
+    numbers = np.arange(1_000.0)
+    archive.write(tmp_path, [RunCurves(config, *[numbers] * 7, dict.fromkeys(KINDS, numbers)) for config in there])
+    command = ["sweep", "--figure", "naive", "--seeds", "0", "--from", str(tmp_path), "--store", str(tmp_path / "a.db")]
+    done = CliRunner().invoke(app, [*command, "--json"])
+    assert json.loads(done.stdout) == {"runs": 0, "failed": {}}
