@@ -83,6 +83,9 @@ class OracleExpert:
             if not good and not over:  # a subgoal that is not valid here is over before it begins
                 terminations[step] = over = True
             actions.append(self._domain.actions[_preferring(self._action(own), good)] if good else None)
+        # Only the first counts; what comes after is answered as the page does, so that equal labels are equal answers.
+        end = terminations.index(True) if True in terminations else None
+        terminations = [step == end for step in range(len(terminations))]
         return wire.LabelLoAnswer(kind="label_lo", actions=actions, terminations=terminations)
 
     def _label_full(self, ask: wire.AskLabelFull) -> wire.LabelFullAnswer:
