@@ -167,7 +167,7 @@ def test_a_killed_waypost_train_resumed_reaches_the_weights_and_the_ledger_of_an
     env = {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path.cwd()), *filter(None, sys.path)])}
     done = subprocess.run([sys.executable, "-c", script, *values, "--store", killed], env=env, capture_output=True)
     assert done.returncode == -signal.SIGKILL, done.stderr.decode()
-    (checkpoint,) = (tmp_path / "killed.db.checkpoints").iterdir()
+    (checkpoint,) = (tmp_path / "killed.db.checkpoints").glob("*.safetensors")
     assert read_header(checkpoint).progress.episodes in (4, 8)
 
     resumed = CliRunner().invoke(app, [*values, "--store", killed, "--resume", "--json"])
