@@ -23,7 +23,6 @@ from learner.commands import (
     progress_bar,
 )
 from learner.experiments import cli as experiments_cli
-from learner.experiments.theory import cli as theory_cli
 from server import cli as server_cli
 from server.cli import JsonOption, refuse
 from server.wire import EpisodeResult, Receipt, Run
@@ -36,7 +35,6 @@ app = typer.Typer(
 )
 app.add_typer(server_cli.app)
 app.add_typer(experiments_cli.app)
-app.add_typer(theory_cli.app)
 
 StoreOption = Annotated[Path | None, typer.Option("--store", help="An SQLite file; it is created if it is not there.")]
 CheckpointsOption = Annotated[

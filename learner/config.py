@@ -25,3 +25,7 @@ class Progress:
 
     episodes: int = 0  # applied
     draws: int = 0  # training instances drawn; more than episodes where they are drawn until one fails
+
+
+START = Progress()
+"""Where a run begins."""

@@ -17,7 +17,7 @@ import numpy as np
 
 from learner.algorithms import Algorithm
 from learner.client import Client, Refused
-from learner.config import Progress, TrainConfig
+from learner.config import START, Progress, TrainConfig
 from learner.datasets import Labels
 from learner.domains.base import InstanceSets
 from learner.evaluation import attempt
@@ -89,7 +89,7 @@ class Driver:
         let_answer: Callable[[], None] = lambda: None,
         on_episode: Callable[[wire.EpisodeResult, float], None] = lambda _result, _units: None,
         checkpoint: Callable[[Progress], None] = lambda _: None,
-        first: Progress = Progress(),  # noqa: B008 (it never changes)
+        first: Progress = START,
     ) -> None:
         self._config, self._algorithm, self._learner, self._instances = config, algorithm, learner, instances
         self._client, self._run_id = client, run_id

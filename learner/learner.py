@@ -1,6 +1,7 @@
 """A learner: policies, the data they learn from, and rollouts under them."""
 
 import os
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
@@ -13,7 +14,7 @@ from learner.domains.base import Domain
 from learner.dqn import QFunction
 from learner.policies import Policy
 from learner.presets.base import Preset
-from learner.rollout import Manner, Rollout, explore, flat_rollout, hierarchical_rollout, run
+from learner.rollout import Manner, Rollout, flat_rollout, hierarchical_rollout, run
 from learner.simulator import HeadStart, Simulator
 from learner.types import FLAT, META, PolicyKey, State, Trajectory
 
@@ -107,7 +108,7 @@ class Learner:
         """
         del s  # the simulator is in it
         rollout = self.rollout(self.simulator, self.simulator.instance, TRAIN, self._draw)
-        return explore(rollout, self.policies, self._stepped) if self.q else run(rollout, self.policies)
+        return run(rollout, self.policies, self._stepped)
 
     def _stepped(self, key: PolicyKey) -> None:
         if key in self.q:
@@ -125,11 +126,11 @@ class Learner:
     def learn(self, labels: Labels) -> None:
         """Append to the data buffers, then Train the policies whose turn it is (docs/paper.md, deviation 6)."""
         sizes = {key: len(data) for key, data in self.data.items()}
-        symmetries = self.domain.symmetries
-        for place, seen in enumerate((labels, *(labels.seen_through(symmetry) for symmetry in symmetries))):
-            for key, rows in seen.rows.items() if place == 0 or self.preset.symmetries else ():
+        for seen in self._views(labels, self.preset.symmetries):
+            for key, rows in seen.rows.items():
                 self.data[key].append(rows)
-            for key, transitions in seen.transitions.items() if place == 0 or self.preset.dqn.symmetries else ():
+        for seen in self._views(labels, bool(labels.transitions) and self.preset.dqn.symmetries):
+            for key, transitions in seen.transitions.items():
                 self.q[key].replay.add(transitions)
         due = [
             key
@@ -137,3 +138,9 @@ class Learner:
             if policy.spec.every_episode or len(self.data[key]) > sizes[key]
         ]
         list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), due))
+
+    def _views(self, labels: Labels, symmetric: bool) -> Iterator[Labels]:
+        """Yield labels as they are, and as they are in each symmetry of the domain, if so."""
+        yield labels
+        if symmetric:
+            yield from map(labels.seen_through, self.domain.symmetries)

@@ -118,8 +118,13 @@ def choose(logits: NDArray[np.float32], choosing: Choosing, rng: np.random.Gener
     return int(np.argmax(scaled + rng.gumbel(size=len(logits))))
 
 
-def run_all(rollouts: Sequence[Rollout], policies: Policies) -> list[Trajectory]:
-    """Run rollouts in step, each network seeing all the states it is asked about as one batch."""
+def run_all(
+    rollouts: Sequence[Rollout], policies: Policies, stepped: Callable[[PolicyKey], None] = lambda _: None
+) -> list[Trajectory]:
+    """Run rollouts in step, each network seeing all the states it is asked about as one batch.
+
+    `stepped` is called after each choice with the policy that made it, which may learn then.
+    """
     results: dict[int, Trajectory] = {}
     waiting: dict[int, Consult] = {}
 
@@ -141,22 +146,10 @@ def run_all(rollouts: Sequence[Rollout], policies: Policies) -> list[Trajectory]
             for row, i in enumerate(asked):
                 says = (outputs.logits[row], float(outputs.termination[row]))
                 advance(i, partial(rollouts[i].send, says))
+                stepped(key)
     return [results[i] for i in range(len(rollouts))]
 
 
-def run(rollout: Rollout, policies: Policies) -> Trajectory:
+def run(rollout: Rollout, policies: Policies, stepped: Callable[[PolicyKey], None] = lambda _: None) -> Trajectory:
     """Run one rollout."""
-    return run_all([rollout], policies)[0]
-
-
-def explore(rollout: Rollout, policies: Policies, stepped: Callable[[PolicyKey], None]) -> Trajectory:
-    """Run one rollout; `stepped` is called after each choice with the policy that made it, which may learn then."""
-    try:
-        consult = next(rollout)
-        while True:
-            outputs = policies[consult.policy](consult.state.observation[None])
-            policy, consult = consult.policy, rollout.send((outputs.logits[0], float(outputs.termination[0])))
-            stepped(policy)
-    except StopIteration as over:
-        stepped(consult.policy)
-        return over.value  # type: ignore[no-any-return]  # StopIteration has no type for it
+    return run_all([rollout], policies, stepped)[0]

@@ -12,7 +12,7 @@ from learner import checkpoints
 from learner.algorithms import find_algorithm
 from learner.bot import Bot, BotSettings
 from learner.client import Client
-from learner.config import Progress, TrainConfig
+from learner.config import START, Progress, TrainConfig
 from learner.domains.base import InstanceSets, find_domain
 from learner.driver import BudgetExhausted, Driver
 from learner.evaluation import Evaluation, evaluate
@@ -122,7 +122,7 @@ def train(
         OracleExpert(learner.domain)  # says so at once if the domain has none
     run = _run(config, learner, connection.learner, options)
     path = options.checkpoints / f"{run.id}.safetensors"
-    first = _resume(path, learner) if options.resume else Progress()
+    first = _resume(path, learner) if options.resume else START
     on_start(run, first.episodes)
 
     def save(progress: Progress, weights_only: bool) -> None:
@@ -191,7 +191,7 @@ def _run(config: TrainConfig, learner: Learner, client: Client, options: RunOpti
 def _resume(path: Path, learner: Learner) -> Progress:
     """Load the run's checkpoint, if there is one, and return where to go on."""
     if not path.exists():
-        return Progress()
+        return START
     checkpoints.load(path, learner)
     return checkpoints.read_header(path).progress
 

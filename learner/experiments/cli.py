@@ -74,6 +74,91 @@ def figures(
     typer.echo(json.dumps(done) if as_json else "\n".join(done["files"]))
 
 
+@app.command()
+def sweep(
+    figure: Annotated[str, typer.Option(help="maze for all, or one group of it.")] = "maze",
+    seeds: SeedsOption = "0,1,2,3,4",
+    store: Annotated[
+        Path | None, typer.Option("--store", help="An SQLite file; it is created if it is not there.")
+    ] = None,
+    server: ServerOption = None,
+    token: TokenOption = "",
+    archives: Annotated[
+        list[Path] | None, typer.Option("--from", help="A folder with runs.csv.gz: what is in it is not made again.")
+    ] = None,
+    jobs: Annotated[int | None, typer.Option(min=1, help="Runs at once; as many as there are cores if absent.")] = None,
+    ray: Annotated[str | None, typer.Option(help="Run on a Ray cluster: its address, or auto.")] = None,
+    episodes: Annotated[int | None, typer.Option(min=1, help="Shorter or longer runs than the figure's.")] = None,
+    preset: Annotated[str | None, typer.Option(help="Other values of learning than the figure's.")] = None,
+    checkpoints: Annotated[Path | None, typer.Option(help="Folder of checkpoints; beside the store.")] = None,
+    patience: PatienceOption = 300.0,
+    as_json: JsonOption = False,
+) -> None:
+    """Make the runs of a figure, those that are not there yet; interrupted, the same command goes on."""
+    if store is not None and server is not None:
+        refuse("The server keeps the store: give either --server or --store.")
+    with learner_errors("Interrupted; the same command goes on, and makes nothing twice."):
+        from learner.experiments import plan
+        from learner.experiments import sweep as sweeping
+        from learner.experiments.figures import archive
+        from learner.training import build_learner
+
+        runs = plan.runs_of(plan.find_figure(figure), parse_seeds(seeds))
+        runs = [replace(run, episodes=episodes or run.episodes, preset=preset or run.preset) for run in runs]
+        build_learner(runs[0], threads=1)  # says what is wrong before there is a store
+        there = {config for folder in archives or [] for config, run in archive.read(folder).items() if run.complete}
+        todo = [run for run in runs if run not in there]
+        place = sweeping.Place(
+            checkpoint_folder(checkpoints, store, server),
+            None if server else store or Path("waypost.db"),
+            server or "",
+            needed(token) if server else "",
+            patience,
+        )
+        with SweepProgress(len(todo), sum(run.episodes for run in todo)) as progress:
+            troubles = sweeping.sweep(todo, place, jobs or os.cpu_count() or 1, ray, progress.show)
+    for name, trouble in troubles.items():
+        typer.echo(f"{name}: {trouble}", err=True)
+    done = f"{len(there & set(runs)) + len(todo) - len(troubles)} of {len(runs)} runs are there."
+    typer.echo(json.dumps({"runs": len(runs), "failed": troubles}) if as_json else done)
+    if troubles:
+        raise typer.Exit(1)
+
+
+@app.command()
+def theory(
+    seeds: Annotated[int, typer.Option(min=1, help="How many seeds in each cell of the grid.")] = 5,
+    rounds: Annotated[int, typer.Option(min=1, help="T, the episodes of each learner.")] = 100,
+    out: Annotated[Path | None, typer.Option(help="A folder for theory.csv, theory.svg and theory.png.")] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Measure hg-DAgger and flat DAgger with halving learners against Theorems 1 and 2."""
+    if out is not None:
+        try:
+            out.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            refuse(f"Cannot write to the folder {out}: {error.strerror}.")
+    with learner_errors():
+        from learner.experiments.theory import grid, report
+
+        with progress_bar() as bar:
+            task = bar.add_task("cells", total=len(grid.GRID) * len(grid.EPISODES))
+            rows = grid.measure(grid.GRID, seeds, rounds, lambda: bar.advance(task))
+        if out is not None:
+            from learner.experiments.theory import draw
+
+            draw.save(rows, out)
+            grid.write_csv(rows, out / "theory.csv")
+        if as_json:
+            cells = [row.values() for row in rows]
+            typer.echo(json.dumps({"seeds": seeds, "rounds": rounds, "worst": grid.worst(rows), "cells": cells}))
+        else:
+            typer.echo("\n".join(report.table(rows, seeds, rounds)))
+
+
+# --- what the commands use
+
+
 class SweepProgress:
     """A bar over the episodes of all runs, with the time left; nothing where there is no terminal."""
 
@@ -111,57 +196,3 @@ def parse_seeds(text: str) -> tuple[int, ...]:
 def _refuse_missing(runs: list[str], command: str) -> NoReturn:
     listed = "\n".join(f"  {run}" for run in runs)
     refuse(f"These runs are missing:\n{listed}\nThis makes them:\n  {command}\nWith --partial, what is there is drawn.")
-
-
-@app.command()
-def sweep(
-    figure: Annotated[str, typer.Option(help="maze for all, or one group of it.")] = "maze",
-    seeds: SeedsOption = "0,1,2,3,4",
-    store: Annotated[
-        Path | None, typer.Option("--store", help="An SQLite file; it is created if it is not there.")
-    ] = None,
-    server: ServerOption = None,
-    token: TokenOption = "",
-    archives: Annotated[
-        list[Path] | None, typer.Option("--from", help="A folder with runs.csv.gz: what is in it is not made again.")
-    ] = None,
-    jobs: Annotated[int | None, typer.Option(min=1, help="Runs at once; as many as there are cores if absent.")] = None,
-    ray: Annotated[str | None, typer.Option(help="Run on a Ray cluster: its address, or auto.")] = None,
-    episodes: Annotated[int | None, typer.Option(min=1, help="Shorter or longer runs than the figure's.")] = None,
-    preset: Annotated[str | None, typer.Option(help="Other values of learning than the figure's.")] = None,
-    checkpoints: Annotated[Path | None, typer.Option(help="Folder of checkpoints; beside the store.")] = None,
-    patience: PatienceOption = 300.0,
-    as_json: JsonOption = False,
-) -> None:
-    """Make the runs of a figure, those that are not there yet; interrupted, the same command goes on."""
-    if store is not None and server is not None:
-        refuse("The server keeps the store: give either --server or --store.")
-    with learner_errors("Interrupted; the same command goes on, and makes nothing twice."):
-        from learner.experiments import plan
-        from learner.experiments import sweep as sweeping
-        from learner.experiments.figures import archive
-        from learner.training import build_learner
-
-        runs = plan.runs_of(plan.find_figure(figure), parse_seeds(seeds))
-        runs = [replace(run, episodes=episodes or run.episodes, preset=preset or run.preset) for run in runs]
-        build_learner(runs[0], threads=1)  # says what is wrong before there is a store
-        there = {config for folder in archives or [] for config, run in archive.read(folder).items() if run.complete}
-        runs = [run for run in runs if run not in there]
-        place = sweeping.Place(
-            checkpoint_folder(checkpoints, store, server),
-            None if server else store or Path("waypost.db"),
-            server or "",
-            needed(token) if server else "",
-            patience,
-        )
-        with SweepProgress(len(runs), sum(run.episodes for run in runs)) as progress:
-            troubles = sweeping.sweep(runs, place, jobs or os.cpu_count() or 1, ray, progress.show)
-    for name, trouble in troubles.items():
-        typer.echo(f"{name}: {trouble}", err=True)
-    typer.echo(
-        json.dumps({"runs": len(runs), "failed": troubles})
-        if as_json
-        else f"{len(runs) - len(troubles)} runs are there."
-    )
-    if troubles:
-        raise typer.Exit(1)

@@ -150,11 +150,12 @@ def _reporting(
 
 
 def _backend(backend: str, address: str | None) -> AbstractContextManager[Any]:
-    if address is None:
-        return joblib.parallel_config(backend=backend)  # type: ignore[no-any-return]
-    import ray
-    from ray.util.joblib import register_ray
+    if address is not None:
+        import ray
+        from ray.util.joblib import register_ray
 
-    ray.init(address=None if address == "auto" else address, ignore_reinit_error=True)
-    register_ray()
-    return joblib.parallel_config(backend="ray")  # type: ignore[no-any-return]
+        ray.init(address=None if address == "auto" else address, ignore_reinit_error=True)
+        register_ray()
+        backend = "ray"
+    configured: AbstractContextManager[Any] = joblib.parallel_config(backend=backend)
+    return configured

@@ -209,4 +209,5 @@ def test_runs_that_an_archive_holds_are_not_made_again(tmp_path: Path) -> None:
     archive.write(tmp_path, [RunCurves(config, *[numbers] * 7, dict.fromkeys(KINDS, numbers)) for config in there])
     command = ["sweep", "--figure", "naive", "--seeds", "0", "--from", str(tmp_path), "--store", str(tmp_path / "a.db")]
     done = CliRunner().invoke(app, [*command, "--json"])
-    assert json.loads(done.stdout) == {"runs": 0, "failed": {}}
+    assert json.loads(done.stdout) == {"runs": 2, "failed": {}}
+    assert "2 of 2 runs are there" in CliRunner().invoke(app, command).stdout

@@ -23,30 +23,21 @@ _MARKERS = "Lines: ours. Markers: published medians."
 
 def success_by_episode(comparison: Comparison) -> Figure:
     """Draw the success rate after each episode."""
-    figure, (axes,) = frame(comparison, "Success by episode")
-    marked = _success_curves(axes, comparison, lambda run: run.episodes, _points_by_episode)
-    count_axis(axes.xaxis, "Episodes")
-    _close(figure, comparison, _MARKERS if marked else _LINES, marked)
-    return figure
+    return _success(comparison, "Success by episode", "Episodes", lambda run: run.episodes, _points_by_episode)
 
 
 def success_by_cost(comparison: Comparison) -> Figure:
     """Draw the success rate against all that was spent on the expert."""
     labels_only = comparison.group.labels_only
-    figure, (axes,) = frame(comparison, "Success against expert cost")
-    marked = _success_curves(axes, comparison, lambda run: run.cost(labels_only), _points_by_cost)
-    count_axis(axes.xaxis, f"Expert cost, units{' (labels alone)' if labels_only else ''}")
-    _close(figure, comparison, _MARKERS if marked else _LINES, marked)
-    return figure
+    x = f"Expert cost, units{' (labels alone)' if labels_only else ''}"
+    return _success(comparison, "Success against expert cost", x, lambda run: run.cost(labels_only), _points_by_cost)
 
 
 def success_by_lo_cost(comparison: Comparison) -> Figure:
     """Draw the success rate against what was spent on LO-level labels."""
-    figure, (axes,) = frame(comparison, "Success against LO-level expert cost")
-    marked = _success_curves(axes, comparison, lambda run: run.lo_cost, _points_by_lo_cost)
-    count_axis(axes.xaxis, "LO-level expert cost, units (actions and terminations, those of demonstrations too)")
-    _close(figure, comparison, _MARKERS if marked else _LINES, marked)
-    return figure
+    x = "LO-level expert cost, units (actions and terminations, those of demonstrations too)"
+    title = "Success against LO-level expert cost"
+    return _success(comparison, title, x, lambda run: run.lo_cost, _points_by_lo_cost)
 
 
 def cost_by_kind(comparison: Comparison) -> Figure:
@@ -149,6 +140,15 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
 def _first(comparison: Comparison) -> tuple[Series, Sequence[RunCurves]]:
     series = comparison.group.series[0]
     return series, comparison.runs[series]
+
+
+def _success(comparison: Comparison, title: str, x: str, value: Value, points: Points) -> Figure:
+    """Draw every series' success rate against a value of its runs."""
+    figure, (axes,) = frame(comparison, title)
+    marked = _success_curves(axes, comparison, value, points)
+    count_axis(axes.xaxis, x)
+    _close(figure, comparison, _MARKERS if marked else _LINES, marked)
+    return figure
 
 
 def _success_curves(axes: Axes, comparison: Comparison, x: Value, points: Points) -> bool:
