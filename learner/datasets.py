@@ -130,7 +130,8 @@ class Labels:
         )
 
     def append_flat(self, trajectory: Trajectory, good_actions: Sequence[Action]) -> None:
-        """D <- D + {(s, a*)} over the full trajectory."""
+        """D <- D + {(s, a*)} over the full trajectory, each pair once: a learner that goes in circles repeats them."""
         states = [state for segment in trajectory for state in segment.states[:-1]]
-        rows = self.rows.setdefault(FLAT, [])
-        rows += [Row(s.observation, a) for s, a in zip(states, good_actions, strict=True)]
+        pairs = zip((state.observation for state in states), good_actions, strict=True)
+        once = {(observation.tobytes(), a): Row(observation, a) for observation, a in pairs}
+        self.rows.setdefault(FLAT, []).extend(once.values())

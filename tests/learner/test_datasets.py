@@ -1,5 +1,7 @@
 """What is put into the data buffers, and that nothing is lost there."""
 
+from dataclasses import replace
+
 import numpy as np
 import torch
 from hypothesis import given
@@ -72,6 +74,17 @@ def test_flat_labels_are_one_action_for_each_state_but_the_last() -> None:
     rows = taught.rows[FLAT]
     assert [(row.choice, row.termination) for row in rows] == [(2, UNLABELED), (1, UNLABELED), (0, UNLABELED)]
     assert [row.observation is s.observation for row, s in zip(rows, one.states, strict=False)] == [True] * 3
+
+
+def test_a_state_seen_again_in_a_flat_trajectory_teaches_the_same_label_once() -> None:
+    one = segment(None, 3)
+    going_in_circles = replace(one, states=(one.states[0], one.states[1], one.states[0], one.states[1]))
+    taught = Labels()
+    taught.append_flat((going_in_circles,), [2, 1, 2])
+    assert [row.choice for row in taught.rows[FLAT]] == [2, 1]
+    taught = Labels()
+    taught.append_flat((going_in_circles,), [2, 1, 3])  # two actions may be as good
+    assert [row.choice for row in taught.rows[FLAT]] == [2, 1, 3]
 
 
 def rows(n: int, first: int = 0) -> list[Row]:
