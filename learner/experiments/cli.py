@@ -55,7 +55,7 @@ def figures(
         from learner.experiments.figures import store as stores
 
         name = str(store) if store is not None else "runs.db"
-        request = make.Request(figure, parse_seeds(seeds), out, report, name)
+        request = make.Request(figure, parse_seeds(seeds), out, report, name, tuple(archives or ()))
         wanted = request.wanted
         with ExitStack() as stack:
             stack.enter_context(Console(stderr=True).status("Reading runs."))
@@ -68,7 +68,7 @@ def figures(
         found = make.merge(sources)
         missing = make.missing(request, found)
         if missing and not partial:
-            _refuse_missing([make.describe(one, found) for one in missing], make.sweep_command(request, missing))
+            _refuse_missing([make.describe(one, found) for one in missing], make.missing_command(request, missing))
         with Console(stderr=True).status("Drawing."):
             done = make.make(request, found)
     typer.echo(json.dumps(done) if as_json else "\n".join(done["files"]))

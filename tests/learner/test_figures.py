@@ -334,6 +334,12 @@ def test_only_the_seeds_that_are_missing_are_made_again(trained: Path) -> None:
     assert "--seeds 8,9 --store" in refused("--store", trained, "--figure", "tiny", "--seeds", "1,9,2,8")
 
 
+def test_the_command_that_makes_what_is_missing_leaves_out_what_an_archive_has(trained: Path) -> None:
+    drawn("--store", trained, *TWO_SEEDS, "--out", "kept")
+    said = refused("--from", "kept", "--figure", "tiny", "--seeds", "1,9")
+    assert "waypost sweep --figure tiny --seeds 9 --from kept --store runs.db" in said
+
+
 def test_a_figure_of_which_no_run_is_there_is_refused_even_when_parts_are_wanted(trained: Path) -> None:
     assert "nothing to draw" in refused("--store", trained, "--figure", "hybrid", "--partial")
 

@@ -24,6 +24,7 @@ class Request:
         out: the folder for figures and tables.
         report: the Markdown document to write; none if None.
         store: the store to name in the command that makes the runs.
+        archives: the folders to name in it, whose runs need not be made.
     """
 
     figure: str
@@ -31,6 +32,7 @@ class Request:
     out: Path
     report: Path | None = None
     store: str = "runs.db"
+    archives: tuple[Path, ...] = ()
 
     @property
     def groups(self) -> list[plan.Group]:
@@ -77,11 +79,10 @@ def describe(config: TrainConfig, found: Found) -> str:
     )
 
 
-def sweep_command(request: Request, runs: Sequence[TrainConfig], store: str | None = None) -> str:
-    """Return the command that makes these runs of a figure, in the request's store or in another."""
-    seeds = _joined(sorted({config.seed for config in runs}))
-    words = ["waypost", "sweep", "--figure", request.figure, "--seeds", seeds, "--store", store or request.store]
-    return shlex.join(words)
+def missing_command(request: Request, runs: Sequence[TrainConfig]) -> str:
+    """Return the command that makes these runs of a figure, and none that an archive has."""
+    archives = [word for folder in request.archives for word in ("--from", str(folder))]
+    return shlex.join([*_sweep(request, runs), *archives, "--store", request.store])
 
 
 def make(request: Request, found: Found) -> dict[str, Any]:
@@ -114,12 +115,16 @@ def _write(request: Request, comparisons: Sequence[Comparison], found: Found, la
             files += draw.save(figure, request.out, name)
     if request.report is not None:
         commands = [
-            sweep_command(request, request.wanted, _shown(Path(request.store))),
+            shlex.join([*_sweep(request, request.wanted), "--store", _shown(Path(request.store))]),
             _own_command(request, request.report, partial=bool(lacking)),
         ]
         report.write(request.report, request.out, comparisons, names, commands, lacking)
         files.append(request.report)
     return files
+
+
+def _sweep(request: Request, runs: Sequence[TrainConfig]) -> list[str]:
+    return ["waypost", "sweep", "--figure", request.figure, "--seeds", _joined(sorted({run.seed for run in runs}))]
 
 
 def _own_command(request: Request, report: Path, partial: bool) -> str:
