@@ -1,0 +1,263 @@
+"""What some of the numbered deviations of docs/paper.md change: `python bench/deviations.py [--store FILE]`.
+
+Two kinds of measurement. Policies trained alike from nothing on the same demonstrations, but for one value, and held
+against the expert on unseen corner mazes: one seed, so differences of a percent or less say nothing. And, from the
+queries of a store, how often a run came to where a deviation matters. Prints tables; asserts nothing.
+"""
+
+import argparse
+import itertools
+import json
+import sqlite3
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from learner.datasets import UNLABELED, Dataset, Labels, Row
+from learner.domains.maze.domain import MazeDomain
+from learner.domains.maze.env import TRAIL
+from learner.domains.maze.maze import SUBGOALS
+from learner.experts.oracle import OracleExpert
+from learner.policies import Policy, TrainSpec
+from learner.presets.paper import PAPER
+from learner.simulator import Simulator
+from learner.translation import Translator
+from learner.types import META, Trajectory
+from server import wire
+
+DOMAIN = MazeDomain()
+ORACLE = OracleExpert(DOMAIN)
+DEMONSTRATIONS, UNSEEN = 600, 200
+HI_SAMPLES, LO_SAMPLES = 200_000, 20_000
+FIRES = PAPER.choosing.termination_threshold
+
+
+def demonstrations(train: bool, n: int) -> Iterator[Trajectory]:
+    """Yield the oracle's trajectories on corner mazes."""
+    sets, rng = DOMAIN.instances("corners"), np.random.default_rng(0)
+    for instance in (sets.train if train else sets.test)[:n]:
+        if train and sets.vary:
+            instance = sets.vary(instance, rng)
+        state = Simulator(DOMAIN).reset(instance).view
+        answer = ORACLE.demonstrate(DOMAIN.instance_view(instance), state)
+        sigma = Translator(DOMAIN, instance).answer(answer)
+        assert isinstance(sigma, tuple)
+        yield sigma
+
+
+def dataset(rows: list[Row]) -> Dataset:
+    """Return a buffer of these rows."""
+    data = Dataset(DOMAIN.observation_shape)
+    data.append(rows)
+    return data
+
+
+# --- meta-controllers
+
+
+def hi_rows(sigmas: list[Trajectory], symmetric: bool = False) -> list[Row]:
+    """D_HI of demonstrations."""
+    labels = [Labels() for _ in sigmas]
+    for one, sigma in zip(labels, sigmas, strict=True):
+        one.append_demonstration(sigma)
+    if symmetric:
+        labels += [one.seen_through(symmetry) for one in labels for symmetry in DOMAIN.symmetries]
+    return [row for one in labels for row in one.rows[META]]
+
+
+def without_trail(rows: list[Row]) -> list[Row]:
+    """The same rows without the visited cells."""
+
+    def hidden(observation: np.ndarray) -> np.ndarray:
+        return np.where(observation == TRAIL, np.float32(0), observation)
+
+    return [replace(row, observation=hidden(row.observation)) for row in rows]
+
+
+def with_torch_initialization(policy: Policy) -> None:
+    """Draw the weights as torch does by default, instead of Glorot's."""
+    torch.manual_seed(0)
+    for layer in policy.network:
+        if isinstance(layer, torch.nn.Conv2d | torch.nn.Linear):
+            layer.reset_parameters()
+
+
+def hi_accuracy(
+    spec: TrainSpec, train: list[Row], test: list[Row], change: Callable[[Policy], None] = lambda _: None
+) -> str:
+    """Percentage of the expert's unseen states in which a trained mu chooses as the expert does."""
+    spec = replace(spec, least=HI_SAMPLES, most=HI_SAMPLES)
+    policy = Policy(DOMAIN.observation_shape, len(SUBGOALS), False, PAPER.network, spec, seed=0)
+    change(policy)
+    policy.train(dataset(train))
+    chosen = policy(np.stack([row.observation for row in test])).logits.argmax(1)
+    return f"{100 * float((chosen == [row.choice for row in test]).mean()):.1f} %"
+
+
+def meta_controllers() -> None:
+    """Deviations 5, 13 and 15."""
+    known, unseen = list(demonstrations(True, DEMONSTRATIONS)), list(demonstrations(False, UNSEEN))
+    train, test, spec = hi_rows(known), hi_rows(unseen), PAPER.train_hi
+    print(f"\nHI choices on {len(test)} unseen states, {HI_SAMPLES:,} samples of {DEMONSTRATIONS} demonstrations\n")
+    print("| deviation | meta-controller | chooses as the expert |\n|---|---|---|")
+    print(f"| | `paper` preset | {hi_accuracy(spec, train, test)} |", flush=True)
+    print(f"| 5 | 32-bit floats | {hi_accuracy(replace(spec, bf16=False), train, test)} |", flush=True)
+    print(f"| 5 | no dropout | {hi_accuracy(replace(spec, dropout=0), train, test)} |", flush=True)
+    print(f"| 5 | batches of 64 | {hi_accuracy(replace(spec, batch=64), train, test)} |", flush=True)
+    print(f"| 5 | torch's initialization | {hi_accuracy(spec, train, test, with_torch_initialization)} |", flush=True)
+    print(f"| 13 | no trail | {hi_accuracy(spec, without_trail(train), without_trail(test))} |", flush=True)
+    print(f"| 15 | in all symmetries | {hi_accuracy(spec, hi_rows(known, True), test)} |", flush=True)
+
+
+# --- subpolicies
+
+
+class Separate:
+    """pi_g and beta_g as two networks, as the paper has them."""
+
+    def __init__(self, spec: TrainSpec) -> None:
+        shape, network = DOMAIN.observation_shape, PAPER.network
+        self.acting = Policy(shape, len(DOMAIN.actions), False, network, spec, seed=0)
+        self.ending = Policy(shape, 2, False, network, spec, seed=1)
+
+    def train(self, rows: list[Row]) -> None:
+        """Train both, each on the rows that have its label."""
+        self.acting.train(dataset([replace(row, termination=UNLABELED) for row in rows if row.choice != UNLABELED]))
+        ends = [Row(row.observation, row.termination) for row in rows if row.termination != UNLABELED]
+        self.ending.train(dataset(ends))
+
+    def __call__(self, observations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return chosen actions and the probability that beta_g is true."""
+        logits = self.ending(observations).logits
+        return self.acting(observations).logits.argmax(1), 1 / (1 + np.exp(logits[:, 0] - logits[:, 1]))
+
+
+class Headed:
+    """pi_g with beta_g as its extra head."""
+
+    def __init__(self, spec: TrainSpec) -> None:
+        self.policy = Policy(DOMAIN.observation_shape, len(DOMAIN.actions), True, PAPER.network, spec, seed=0)
+
+    def train(self, rows: list[Row]) -> None:
+        """Train."""
+        self.policy.train(dataset(rows))
+
+    def __call__(self, observations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return chosen actions and the probability that beta_g is true."""
+        outputs = self.policy(observations)
+        return outputs.logits.argmax(1), outputs.termination
+
+
+def lo_rows(sigmas: list[Trajectory], first_state: bool) -> dict[int, list[Row]]:
+    """D_g of demonstrations; with `first_state`, beta_g is false in each segment's first state."""
+    labels = Labels()
+    for sigma in sigmas:
+        labels.append_demonstration(sigma)
+    starts = {s.start.observation.tobytes() for sigma in sigmas for s in sigma} if first_state else set()
+
+    def begun(row: Row) -> Row:
+        asked = row.termination != UNLABELED or row.observation.tobytes() not in starts
+        return row if asked else replace(row, termination=0)
+
+    return {g: [begun(row) for row in labels.rows.get(g, [])] for g in range(len(SUBGOALS))}
+
+
+def subpolicies() -> None:
+    """Deviations 4 and 7."""
+    known = list(demonstrations(True, PAPER.warm_start))
+    test = lo_rows(list(demonstrations(False, UNSEEN)), first_state=False)
+    spec = replace(PAPER.train_lo, least=LO_SAMPLES, most=LO_SAMPLES)
+    print(f"\nSubpolicies on the expert's unseen states, {LO_SAMPLES:,} samples of {PAPER.warm_start} demonstrations\n")
+    print("| deviation | subpolicy | acts as the expert | ends in time | ends too early |\n|---|---|---|---|---|")
+    variants: list[tuple[str, str, Callable[[TrainSpec], Any], bool]] = [
+        ("", "`paper` preset", Headed, False),
+        ("4", "beta_g is trained in first states too", Headed, True),
+        ("7", "two networks", Separate, False),
+    ]
+    for number, name, make, first_state in variants:
+        right, fired = [], {0: list[bool](), 1: list[bool]()}
+        for g, rows in lo_rows(known, first_state).items():
+            policy = make(spec)
+            policy.train(rows)
+            actions, ends = policy(np.stack([row.observation for row in test[g]]))
+            for row, action, end in zip(test[g], actions, ends, strict=True):
+                if row.choice != UNLABELED:
+                    right.append(action == row.choice)
+                if row.termination != UNLABELED:
+                    fired[row.termination].append(bool(end > FIRES))
+        columns = (f"{100 * float(np.mean(column)):.1f} %" for column in (right, fired[1], fired[0]))
+        print(f"| {number} | {name} | {' | '.join(columns)} |", flush=True)
+
+
+# --- what runs came to
+
+
+def queries(db: sqlite3.Connection, run: str, kind: str) -> Iterator[tuple[Any, Any]]:
+    """Yield what was asked and what was answered."""
+    found = db.execute(
+        "SELECT ask, content FROM queries JOIN answers ON answers.id = queries.answer_id WHERE queries.run_id = ? "
+        "AND kind = ?",
+        (run, kind),
+    )
+    return ((json.loads(ask), json.loads(answer)) for ask, answer in found)
+
+
+def percent(part: int, whole: int) -> str:
+    """A share, and of what."""
+    return f"{100 * part / whole:.1f} % of {whole:,}" if whole else "none"
+
+
+def count(db: sqlite3.Connection, run: str, title: str) -> None:
+    """Deviations 3, 4, 10, 11, 12 and 16, in one run."""
+    assert DOMAIN.oracle is not None
+    segments = actions = followed = 0
+    for _, answer in queries(db, run, "hier_demo"):
+        subgoals = [segment["subgoal"] for segment in answer["segments"]]
+        segments, actions = segments + len(subgoals), actions + sum(len(s["actions"]) for s in answer["segments"])
+        followed += sum(a == b and a is not None for a, b in itertools.pairwise(subgoals))
+    ties = invalid = chosen = 0
+    for ask, answer in queries(db, run, "label_hi"):
+        for segment, label in zip(ask["segments"], answer["subgoals"], strict=True):
+            start, own = segment["states"][0], SUBGOALS.index(segment["subgoal"])
+            chosen += 1
+            ties += segment["subgoal"] == label != SUBGOALS[DOMAIN.oracle.good_subgoals(ask["instance"], start)[0]]
+            invalid += not DOMAIN.oracle.good_actions(ask["instance"], start, start, own)
+    labels = after = 0
+    for _, answer in queries(db, run, "label_lo"):
+        ends = answer["terminations"]
+        labels += len(ends)
+        after += len(ends) - 1 - ends.index(True) if True in ends else 0
+    print(f"\n{title}\n\n| deviation | | |\n|---|---|---|")
+    if segments:
+        print(f"| 3, 16 | demonstrations: actions, segments | {actions:,}, {segments:,} |")
+        print(f"| 4 | segments followed by one of the same subgoal | {percent(followed, segments)} |")
+    if chosen:
+        print(f"| 10 | agreements that are ties | {percent(ties, chosen)} HI labels |")
+        print(f"| 12 | chosen subgoals that are not valid | {percent(invalid, chosen)} |")
+    if labels:
+        print(f"| 11 | states of Label_LO after the first true termination | {percent(after, labels)} |")
+
+
+def main() -> None:
+    """Print all that was asked for."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--store", type=Path, help="a store whose runs on the maze to count in, instead of training")
+    file = parser.parse_args().store
+    torch.set_num_threads(1)
+    if file is None:
+        meta_controllers()
+        subpolicies()
+        return
+    with sqlite3.connect(f"{file.resolve().as_uri()}?mode=ro", uri=True) as db:
+        runs = db.execute("SELECT id, vocabulary, algorithm, seed, name FROM runs ORDER BY number")
+        for run, vocabulary, algorithm, seed, name in runs.fetchall():
+            if wire.Vocabulary.model_validate_json(vocabulary).domain == DOMAIN.name:
+                count(db, run, f"{algorithm}, seed {seed}: {name}")
+
+
+if __name__ == "__main__":
+    main()
