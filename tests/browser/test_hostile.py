@@ -1,0 +1,95 @@
+"""Whatever somebody has stored, nobody's browser runs it: with the content security policy, and by the page alone."""
+
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from server.serving import Served
+from tests.browser.hostile import NUMBER, payloads
+from tests.browser.kit import VOCABULARY, Learner, ask, login_link, wait_for_heading
+
+PAYLOADS = payloads()
+
+
+@pytest.fixture(params=["with its policy", "without its policy"])
+def page(request: pytest.FixtureRequest, browser: Browser, served: Served) -> Iterator[Page]:
+    """An administrator's browser, which sees everything."""
+    context = browser.new_context(
+        base_url=served.url, viewport={"width": 1440, "height": 900}, bypass_csp=request.param.startswith("without")
+    )
+    page = context.new_page()
+    page.add_init_script("Object.defineProperty(window, 'ran', { value: undefined, writable: true })")
+    page.goto(login_link(served, f"guard-{request.param}", "admin"))
+    page.wait_for_url("**/work")
+    yield page
+    context.close()
+
+
+def nothing_ran(page: Page) -> None:
+    """Point at everything there is, as a person would sooner or later, and see that nothing ran."""
+    page.evaluate(
+        "for (const one of document.querySelectorAll('*')) one.dispatchEvent(new Event('mouseover', { bubbles: true }))"
+    )
+    page.wait_for_timeout(200)
+    assert page.evaluate("window.ran") is None
+    assert page.evaluate("document.querySelectorAll('iframe, object, [onerror], [onload]').length") == 0
+
+
+def test_there_are_200_and_a_careless_page_would_run_them(browser: Browser) -> None:
+    assert len(set(PAYLOADS)) == NUMBER
+    careless = browser.new_page()
+    for text in PAYLOADS[10:20]:
+        careless.evaluate("text => { window.ran = undefined; document.body.innerHTML = text }", text)
+        careless.wait_for_function("window.ran !== undefined")
+    careless.close()
+
+
+def test_names_and_questions_and_states_are_only_ever_text(page: Page, learner: Learner) -> None:
+    hostile = {"domain": PAYLOADS[0], "subgoals": PAYLOADS, "actions": PAYLOADS, "renderer": PAYLOADS[1]}
+    instance = {"rows": PAYLOADS, PAYLOADS[2]: PAYLOADS[3]}
+    segments = [
+        {"subgoal": text, "states": [PAYLOADS, {text: text}], "actions": [action]}
+        for text, action in zip(PAYLOADS, reversed(PAYLOADS), strict=True)
+    ]
+    run = learner.create_run(PAYLOADS[4], algorithm=PAYLOADS[5], vocabulary=hostile, config={PAYLOADS[6]: PAYLOADS[7]})
+    question = "".join(PAYLOADS)[:500]
+    suggestion = {"kind": "label_hi", "subgoals": PAYLOADS}
+    asked = {"question": question, "instance": instance, "segments": segments}
+    learner.ask(run, ask("label_hi", **asked, suggestion=suggestion))
+    learner.ask(
+        run,
+        ask("label_full", ordinal=1, **asked),
+        ask("inspect_lo", 1, **asked | {"context": segments, "segments": segments[:1]}),
+    )
+    for _ in range(3):
+        page.goto(f"/work?run={run}")
+        wait_for_heading(page, question)
+        nothing_ran(page)
+        page.keyboard.press("Shift+S")
+        page.get_by_role("dialog").get_by_role("textbox").fill(question)
+        page.keyboard.press("Enter")
+        expect(page.get_by_text("Skipped")).to_be_visible()
+        nothing_ran(page)
+    page.goto(f"/runs/{run}")
+    page.get_by_role("heading", level=1).wait_for()
+    nothing_ran(page)
+
+
+def test_names_of_runs_and_people_are_only_ever_text(page: Page, learner: Learner, served: Served) -> None:
+    for text in PAYLOADS:
+        learner.create_run(text)
+    page.goto("/runs")
+    page.get_by_role("row").nth(1).wait_for()
+    nothing_ran(page)
+    page.goto(login_link(served, PAYLOADS[20], "annotator"))
+    page.wait_for_url("**/work")
+    run = learner.create_run("quiet", vocabulary=VOCABULARY)
+    learner.ask(run, ask("inspect_full"))
+    page.goto(f"/work?run={run}")
+    wait_for_heading(page, ask("inspect_full")["question"])
+    nothing_ran(page)
+    page.keyboard.press("p")
+    page.goto(f"/runs/{run}")
+    page.get_by_text(PAYLOADS[20], exact=True).first.wait_for()
+    nothing_ran(page)
