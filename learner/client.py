@@ -4,8 +4,9 @@ A call whose reply is lost is sent again until `patience` is over: asking, answe
 idempotent on the server, so a server that was killed and came back sees nothing twice.
 """
 
+import base64
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 import httpx2
@@ -17,6 +18,8 @@ M = TypeVar("M", bound=BaseModel)
 
 PATIENCE_SECONDS = 300.0
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.05, 2.0
+_HASHES_AT_ONCE = 1_000
+_UPLOAD_BYTES = 2 * 2**20  # of a request body with frames; one frame alone may be larger
 _TRANSIENT = frozenset({429, 502, 503, 504})
 
 
@@ -55,6 +58,7 @@ class Client:
         patience: float = PATIENCE_SECONDS,
     ) -> None:
         self._patience = patience
+        self._uploaded: set[str] = set()  # frames that the server has
         self._http = httpx2.Client(
             base_url=f"{server.rstrip('/')}/api/v1",
             headers={"Authorization": f"Bearer {token}"},
@@ -83,6 +87,16 @@ class Client:
     def patch_run(self, run: str, patch: wire.RunPatch) -> wire.Run:
         """Pause, resume or finish a run, set its budget or its result."""
         return self._call(wire.Run, "PATCH", f"/runs/{run}", patch)
+
+    def upload(self, frames: Mapping[str, bytes]) -> None:
+        """Upload frames, PNGs by their SHA-256, but none that the server has."""
+        wanted = [frame for frame in frames if frame not in self._uploaded]
+        for start in range(0, len(wanted), _HASHES_AT_ONCE):
+            hashes = wire.FrameHashes(hashes=wanted[start : start + _HASHES_AT_ONCE])
+            missing = self._call(wire.FrameHashes, "POST", "/frames/missing", hashes).hashes
+            for batch in _batches(missing, frames):
+                self._send("PUT", "/frames", wire.FrameUpload(frames=batch))
+            self._uploaded.update(hashes.hashes)
 
     def ask(self, run: str, queries: Sequence[wire.Ask]) -> list[wire.Query]:
         """Ask; a query asked before comes back with its answer if it has one."""
@@ -162,6 +176,20 @@ class Client:
         if response.is_error:
             raise Refused(_problem(response))
         return response
+
+
+def _batches(hashes: Sequence[str], frames: Mapping[str, bytes]) -> Iterator[list[wire.Frame]]:
+    """Yield frames as they are uploaded, few enough at a time for a request body."""
+    batch, size = list[wire.Frame](), 0
+    for one in hashes:
+        png = base64.b64encode(frames[one]).decode()
+        if batch and (size + len(png) > _UPLOAD_BYTES or len(batch) == _HASHES_AT_ONCE):
+            yield batch
+            batch, size = [], 0
+        batch.append(wire.Frame(hash=one, png=png))
+        size += len(png)
+    if batch:
+        yield batch
 
 
 def _read(reply: type[M], response: httpx2.Response) -> M:

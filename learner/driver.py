@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from learner.algorithms import Algorithm
+from learner.camera import Camera
 from learner.client import Client, Refused
 from learner.config import START, Progress, TrainConfig
 from learner.datasets import Labels
@@ -76,6 +77,7 @@ class Driver:
         on_episode: called with each episode's result and what its answers cost, in units.
         checkpoint: called with where the run stands whenever it can go on from there.
         first: where to go on, after a resumed checkpoint.
+        pictures: whether queries carry pictures of their states, where the domain has them; people need them.
     """
 
     def __init__(
@@ -90,10 +92,12 @@ class Driver:
         on_episode: Callable[[wire.EpisodeResult, float], None] = lambda _result, _units: None,
         checkpoint: Callable[[Progress], None] = lambda _: None,
         first: Progress = START,
+        pictures: bool = False,
     ) -> None:
         self._config, self._algorithm, self._learner, self._instances = config, algorithm, learner, instances
         self._client, self._run_id = client, run_id
         self._let_answer, self._on_episode, self._checkpoint = let_answer, on_episode, checkpoint
+        self._pictures = pictures
         self._test_simulator = learner.make_simulator()
         # Experience is large, and episodes that learn from it are short.
         self._checkpoint_every = CHECKPOINT_EVERY * (20 if learner.structure.reinforced else 1)
@@ -142,7 +146,8 @@ class Driver:
         instance = self._train_instance(draw)
         s = self._learner.start(instance, draw)
         generator = (warm_start or self._algorithm.episode)(s, self._learner)
-        episode = OpenEpisode(number, Translator(self._learner.domain, instance), generator)
+        camera = Camera(self._learner.domain, instance) if self._pictures else None
+        episode = OpenEpisode(number, Translator(self._learner.domain, instance, camera), generator)
         self._open.append(episode)
         query = episode.resume(partial(next, generator))
         simulator = self._learner.simulator
@@ -174,6 +179,8 @@ class Driver:
         """Ask, and go on with the answers that are there at once."""
         while query is not None:
             ask = episode.translator.ask(query, episode.number, episode.ordinal)
+            if episode.translator.camera:
+                self._client.upload(episode.translator.camera.developed())
             try:
                 (asked,) = self._client.ask(self._run_id, [ask])
             except Refused as refusal:

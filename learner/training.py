@@ -146,6 +146,7 @@ def train(
             report,
             partial(save, weights_only=False),
             first,
+            pictures=connection.annotator is None,
         )
         try:
             driver.train()

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
+from learner.camera import Camera
 from learner.domains.base import Domain
 from learner.queries import (
     Answer,
@@ -28,10 +29,10 @@ def vocabulary(domain: Domain) -> wire.Vocabulary:
 
 
 class Translator:
-    """Translates for one domain and one environment instance."""
+    """Translates for one domain and one environment instance; with a camera, queries carry pictures of their states."""
 
-    def __init__(self, domain: Domain, instance: Any) -> None:
-        self.domain, self.instance = domain, instance
+    def __init__(self, domain: Domain, instance: Any, camera: Camera | None = None) -> None:
+        self.domain, self.instance, self.camera = domain, instance, camera
 
     def ask(self, query: Query, episode: int, ordinal: int) -> wire.Ask:
         """Return a query as it goes over the wire."""
@@ -72,16 +73,14 @@ class Translator:
                 return wire.AskInspectLo(
                     kind="inspect_lo",
                     question=f"Did this segment accomplish “{self._words(segment)}”?",
-                    segments=self._segments([segment]),
-                    context=self._segments(before),
+                    **self._parted(before, segment),
                     **common,
                 )
             case LabelLo(segment, before):
                 return wire.AskLabelLo(
                     kind="label_lo",
                     question=f"Which action was right in each state toward “{self._words(segment)}”?",
-                    segments=self._segments([segment]),
-                    context=self._segments(before),
+                    **self._parted(before, segment),
                     suggestion=wire.LabelLoAnswer(
                         kind="label_lo",
                         actions=list(self._actions(segment.actions)),
@@ -136,14 +135,22 @@ class Translator:
             state = states[-1]
         return tuple(sigma)
 
+    def _parted(self, before: Sequence[Segment], segment: Segment) -> dict[str, list[wire.Segment]]:
+        """Return a segment to ask about, and what came before it."""
+        *context, asked = self._segments([*before, segment])
+        return {"segments": [asked], "context": context}
+
     def _segments(self, segments: Sequence[Segment]) -> list[wire.Segment]:
+        """Return segments that follow each other from the start of the episode."""
+        frames = self.camera.frames(segments) if self.camera else [[] for _ in segments]
         return [
             wire.Segment(
                 subgoal=None if s.subgoal is None else self._subgoal(s),
                 states=[state.view for state in s.states],
                 actions=list(self._actions(s.actions)),
+                frames=pictures,
             )
-            for s in segments
+            for s, pictures in zip(segments, frames, strict=True)
         ]
 
     def _subgoal(self, segment: Segment) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 
 from sqlalchemy import Row, bindparam, insert, select, update
 
-from server import canonical, errors, events, kinds, money, queries, queue, runs, wire
+from server import activity, canonical, errors, events, kinds, money, queries, queue, runs, wire
 from server.database import Tx
 from server.money import Cost, Entry, to_units
 from server.settings import Settings
@@ -26,6 +26,7 @@ class Post:
     token: str
     answer: wire.Answer
     key: str | None
+    idle_seconds: float
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,16 @@ def _accept(tx: Tx, post: Post, case: Case, wish: queue.Wish | None) -> wire.Rec
     """Store, charge and close."""
     cost = kinds.cost(post.answer, wire.Prices.model_validate_json(case.run.prices))
     stored = _store(tx, post, case, case.query.revision, cost)
-    entry = Entry(case.run.id, case.query.id, stored.id, case.query.kind, case.query.episode, cost, stored.seconds)
+    entry = Entry(
+        case.run.id,
+        case.query.id,
+        stored.id,
+        case.query.kind,
+        case.query.episode,
+        cost,
+        stored.seconds,
+        stored.active_seconds,
+    )
     money.charge(tx, entry, case.query.reserve)
     tx.conn.execute(_END, {"assignment": case.held.id, "now": tx.now})
     tx.conn.execute(_CLOSE, {"query": case.query.id, "answer": stored.id})
@@ -141,6 +151,7 @@ def _accept(tx: Tx, post: Post, case: Case, wish: queue.Wish | None) -> wire.Rec
 
 
 def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> Row[Any]:
+    seconds = max(tx.now - case.held.leased_at, 0.0)
     row = {
         "run_id": case.run.id,
         "query_id": case.query.id,
@@ -151,7 +162,8 @@ def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> 
         "idempotency_key": post.key,
         "revision": revision,
         "units": cost.units,
-        "seconds": max(tx.now - case.held.leased_at, 0.0),
+        "seconds": seconds,
+        "active_seconds": min(activity.take(tx, post.user, post.idle_seconds), seconds),
         "created_at": tx.now,
     }
     return tx.conn.execute(_INSERT, row).one()
@@ -163,6 +175,7 @@ def _receipt(stored: Row[Any], following: wire.Assignment | None) -> wire.Receip
         answer=stored.id,
         units=to_units(stored.units),
         seconds=stored.seconds,
+        active_seconds=stored.active_seconds,
         next=following,
     )
 
@@ -183,7 +196,7 @@ def retract(tx: Tx, assignment: int, user: int, token: str, settings: Settings) 
         raise errors.RunFinished("The run is finished; its answers stay.")
     charged = tx.conn.execute(select(ledger).where(ledger.c.answer_id == given.id, ledger.c.entry == "charge")).one()
     cost = Cost(charged.units, charged.lo_units)
-    entry = Entry(run.id, query.id, given.id, query.kind, query.episode, cost, charged.seconds)
+    entry = Entry(run.id, query.id, given.id, query.kind, query.episode, cost, charged.seconds, charged.active_seconds)
     money.refund(tx, entry, runs.account(run), query.reserve)
     tx.conn.execute(
         update(query_table)

@@ -1,14 +1,19 @@
-"""Which query an annotator gets next: by priority, then the episode it last answered, then age."""
+"""Which query an annotator gets next: by priority, then the episode it last answered, then age.
+
+What follows up on somebody's answer is kept for them for a while, as long as they are at work.
+"""
 
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from sqlalchemy import Select, bindparam, exists, not_, or_, select
+from sqlalchemy import Select, and_, bindparam, exists, not_, or_, select
+from sqlalchemy.sql.elements import ColumnElement
 
 from server import presence, wire
 from server.database import Tx
 from server.tables import IS_OPEN, answers, queries, runs, skips
+from server.tables import presence as present
 
 Kinds = tuple[wire.Kind, ...]
 
@@ -21,13 +26,26 @@ class Taker:
     kinds: Kinds | None
     run: str | None
     defer: float
+    ahead: bool
     presence_seconds: float
+    follow_up_seconds: float
+
+    def known(self, now: float) -> dict[str, Any]:
+        """Return what the statements are run with."""
+        return {
+            "user": self.user,
+            "run": self.run,
+            "now": now,
+            "since": now - self.presence_seconds,
+            "fresh": now - self.follow_up_seconds,
+        }
 
 
 @dataclass(frozen=True)
 class Offer:
     """The statements that find the next query among those an annotator may have."""
 
+    offered: Select[Any]
     first: Select[Any]
     follow_up: Select[Any]
     unlocked: Select[Any]
@@ -37,6 +55,7 @@ class Offer:
         """Return the statements over some choice of open queries, best first."""
         last = (queries.c.run_id == bindparam("last_run"), queries.c.episode == bindparam("last_episode"))
         return cls(
+            offered,
             offered.limit(1),
             offered.where(*last, queries.c.priority >= bindparam("priority")).limit(1),
             offered.limit(1).with_for_update(skip_locked=True, of=queries),
@@ -56,7 +75,9 @@ _LOCK_ONE = select(queries.c.id).where(queries.c.id == bindparam("query"), IS_OP
 def take(tx: Tx, taker: Taker) -> int | None:
     """Lock and return the next query: a follow-up if nothing has a higher priority, else the first."""
     offer = _offer(tx, taker)
-    known: dict[str, Any] = {"user": taker.user, "run": taker.run}
+    known = taker.known(tx.now)
+    if taker.ahead and not _enough_for_others(tx, taker, offer, known):
+        return None
     chosen = tx.conn.execute(offer.first, known).one_or_none()
     if chosen is None:
         return None
@@ -73,6 +94,12 @@ def take(tx: Tx, taker: Taker) -> int | None:
     return None if locked is None else int(locked.id)
 
 
+def _enough_for_others(tx: Tx, taker: Taker, offer: Offer, known: dict[str, Any]) -> bool:
+    """Return whether there is a query for everybody else at work, and one more."""
+    n_others = presence.others(tx, taker.user, taker.presence_seconds)
+    return len(tx.conn.execute(offer.offered.limit(n_others + 1), known).all()) > n_others
+
+
 def _offer(tx: Tx, taker: Taker) -> Offer:
     if taker.defer == 0:
         return _plain_offer(taker.kinds, taker.run is not None)
@@ -86,13 +113,35 @@ def _plain_offer(kinds: Kinds | None, one_run: bool) -> Offer:
     return Offer.among(_offered(kinds, one_run))
 
 
+def _kept_for_another() -> ColumnElement[bool]:
+    """Return the condition that a query is new and follows up on an answer of somebody else who is at work."""
+    earlier = queries.alias("earlier")
+    last_annotator = (
+        select(answers.c.user_id)
+        .join(earlier, earlier.c.answer_id == answers.c.id)
+        .where(earlier.c.run_id == queries.c.run_id, earlier.c.episode == queries.c.episode)
+        .where(earlier.c.state == "answered")
+        .order_by(answers.c.id.desc())
+        .limit(1)
+        .correlate(queries)
+        .scalar_subquery()
+    )
+    other = exists().where(
+        present.c.user_id == last_annotator,
+        present.c.user_id != bindparam("user"),
+        presence.AT_WORK,
+        presence.takes(),
+    )
+    return and_(queries.c.created_at > bindparam("fresh"), other)
+
+
 def _offered(kinds: Kinds | None, one_run: bool) -> Select[Any]:
     """Return the open queries an annotator may have, best first."""
     skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == bindparam("user"))
     running = exists().where(runs.c.id == queries.c.run_id, runs.c.state == "running")
     offered = (
         select(queries.c.id, queries.c.priority)
-        .where(IS_OPEN, running, ~skipped)
+        .where(IS_OPEN, running, ~skipped, ~_kept_for_another())
         .order_by(queries.c.priority.desc(), queries.c.id)
     )
     if kinds is not None:

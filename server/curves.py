@@ -27,6 +27,7 @@ class Spent:
     units: int
     lo_units: int
     seconds: float
+    active_seconds: float
 
 
 def trailing(outcomes: Sequence[bool | None], window: int = runs.TRAILING) -> list[float | None]:
@@ -45,13 +46,19 @@ def _ledger(tx: Tx, run: str) -> list[Spent]:
     charges = func.count().filter(ledger.c.entry == "charge") - func.count().filter(ledger.c.entry == "refund")
     rows = tx.conn.execute(
         select(
-            ledger.c.episode, ledger.c.kind, charges, signed, func.sum(ledger.c.lo_units), func.sum(ledger.c.seconds)
+            ledger.c.episode,
+            ledger.c.kind,
+            charges,
+            signed,
+            func.sum(ledger.c.lo_units),
+            func.sum(ledger.c.seconds),
+            func.sum(ledger.c.active_seconds),
         )
         .where(ledger.c.run_id == run)
         .group_by(ledger.c.episode, ledger.c.kind)
         .order_by(ledger.c.episode)
     )
-    return [Spent(row[0], row[1], row[2], int(row[3]), int(row[4]), row[5]) for row in rows]
+    return [Spent(row[0], row[1], row[2], int(row[3]), int(row[4]), row[5], row[6]) for row in rows]
 
 
 def _tests(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:
@@ -98,6 +105,7 @@ def curves(tx: Tx, run: str) -> wire.Curves:
         cost=_units(_cumulative(reported, ((entry.episode, entry.units) for entry in spent))),
         lo_cost=_units(_cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent))),
         seconds=_cumulative(reported, ((entry.episode, entry.seconds) for entry in spent)),
+        active_seconds=_cumulative(reported, ((entry.episode, entry.active_seconds) for entry in spent)),
         cost_by_kind={kind: _units(_cumulative(reported, by_kind[kind])) for kind in KINDS},
         hi_labels=[result.hi_labels for result in results],
         lo_samples=list(accumulate(result.train_steps for result in results)),
@@ -121,6 +129,7 @@ def costs(tx: Tx, run: str) -> wire.Costs:
         total=total.units,
         lo_total=total.lo_units,
         seconds=total.seconds,
+        active_seconds=total.active_seconds,
         by_kind=by_kind,
         reserved=to_units(row.reserved),
         budget=None if row.budget is None else to_units(row.budget),
@@ -134,6 +143,7 @@ def _sum(spent: Sequence[Spent]) -> wire.CostOfKind:
         units=to_units(sum(entry.units for entry in spent)),
         lo_units=to_units(sum(entry.lo_units for entry in spent)),
         seconds=max(sum(entry.seconds for entry in spent), 0.0),
+        active_seconds=max(sum(entry.active_seconds for entry in spent), 0.0),
     )
 
 

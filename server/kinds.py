@@ -52,6 +52,10 @@ def check_segment(segment: wire.Segment, words: Words, at: Location) -> None:
         raise Unprocessable(
             [*at, "states"], f"has {len(segment.states)} states; {len(segment.actions)} actions make one more"
         )
+    if segment.frames and len(segment.frames) != len(segment.states):
+        raise Unprocessable(
+            [*at, "frames"], f"has {len(segment.frames)} frames; each of {len(segment.states)} states has one, or none"
+        )
     words.check_actions(segment.actions, [*at, "actions"])
     if segment.subgoal is not None:
         words.check_subgoal(segment.subgoal, [*at, "subgoal"])

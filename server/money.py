@@ -46,6 +46,7 @@ class Entry:
     episode: int
     cost: Cost
     seconds: float
+    active_seconds: float
 
 
 _INSERT = insert(ledger)
@@ -114,6 +115,7 @@ def _write(tx: Tx, kind: str, entry: Entry, sign: int) -> None:
         "units": sign * entry.cost.units,
         "lo_units": sign * entry.cost.lo,
         "seconds": sign * entry.seconds,
+        "active_seconds": sign * entry.active_seconds,
         "created_at": tx.now,
     }
     tx.conn.execute(_INSERT, row)

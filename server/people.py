@@ -176,7 +176,8 @@ def me(tx: Tx, user: int) -> wire.Me:
             func.count().filter(counted.c.created_at >= tx.now - tx.now % DAY),
         ).select_from(counted)
     ).one()
-    recent = tx.conn.execute(select(counted.c.seconds).order_by(counted.c.id.desc()).limit(RECENT)).scalars().all()
+    newest = select(counted.c.active_seconds).order_by(counted.c.id.desc()).limit(RECENT)
+    recent = tx.conn.execute(newest).scalars().all()
     return wire.Me(
         id=who.id,
         name=who.name,

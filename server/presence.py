@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from sqlalchemy import and_, bindparam, exists, false, or_, select
+from sqlalchemy import and_, bindparam, exists, false, func, literal, or_, select
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.sql.elements import ColumnElement
 
@@ -29,16 +29,41 @@ def note(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None) 
     )
 
 
-def who_would_take(tx: Tx, seconds: float) -> ColumnElement[bool]:
-    """Return the condition that somebody at work takes a query: its kind, in its run, and has not skipped it."""
-    busy = exists().where(
+# Asked after `since`, or holds a lease `now`.
+AT_WORK = or_(
+    presence.c.asked_at > bindparam("since"),
+    exists().where(
         assignments.c.user_id == presence.c.user_id,
         IS_LIVE,
-        assignments.c.expires_at > tx.now,
+        assignments.c.expires_at > bindparam("now"),
         assignments.c.deferring.is_(False),
+    ),
+)
+_AT_WORK = select(presence).where(AT_WORK)
+_OTHERS = select(func.count()).where(AT_WORK, presence.c.user_id != bindparam("user"))
+
+
+def who_would_take(tx: Tx, seconds: float) -> ColumnElement[bool]:
+    """Return the condition that somebody at work takes a query: its kind, in its run, and has not skipped it."""
+    at_work = tx.conn.execute(_AT_WORK, {"since": tx.now - seconds, "now": tx.now}).all()
+    return or_(false(), *(_takes(row) for row in at_work))
+
+
+def others(tx: Tx, user: int, seconds: float) -> int:
+    """Return how many other annotators are at work."""
+    known = {"since": tx.now - seconds, "now": tx.now, "user": user}
+    return int(tx.conn.execute(_OTHERS, known).scalar_one())
+
+
+def takes() -> ColumnElement[bool]:
+    """Return the condition that whoever a row of `presence` is about takes a query."""
+    skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == presence.c.user_id)
+    kinds = literal(",") + presence.c.kinds + ","
+    return and_(
+        ~skipped,
+        or_(presence.c.run_id.is_(None), presence.c.run_id == queries.c.run_id),
+        or_(presence.c.kinds.is_(None), kinds.like("%," + queries.c.kind + ",%")),
     )
-    at_work = select(presence).where(or_(presence.c.asked_at > tx.now - seconds, busy))
-    return or_(false(), *(_takes(row) for row in tx.conn.execute(at_work).all()))
 
 
 def _takes(row: Any) -> ColumnElement[bool]:

@@ -8,7 +8,7 @@ from fastapi import Path
 from pydantic import TypeAdapter
 from sqlalchemy import Row, Select, and_, bindparam, func, insert, select, tuple_, update
 
-from server import canonical, errors, events, kinds, live, money, runs, wire
+from server import canonical, errors, events, frames, kinds, live, money, runs, wire
 from server.database import Tx
 from server.money import to_units
 from server.tables import IS_LIVE, answers, assignments, queries, users
@@ -28,6 +28,7 @@ QUERIES: Select[Any] = (
         answers.c.content.label("answer"),
         answers.c.units,
         answers.c.seconds,
+        answers.c.active_seconds,
         func.coalesce(_annotator.c.name, _holder.c.name).label("annotator"),
     )
     .select_from(queries)
@@ -63,9 +64,12 @@ class Content:
 
     @classmethod
     def of(cls, ask: wire.Ask) -> "Content":
-        """Return the canonical content of a query."""
-        text = canonical.text(ask.model_dump(mode="json"))
-        return cls(ask, text, canonical.digest(text))
+        """Return the canonical content of a query; its pictures are kept, but are not what is asked."""
+        content = ask.model_dump(mode="json")
+        text = canonical.text(content)
+        for segment in [*content.get("segments", []), *content["context"]]:
+            del segment["frames"]
+        return cls(ask, text, canonical.digest(canonical.text(content)))
 
     @property
     def key(self) -> tuple[int, int]:
@@ -93,6 +97,7 @@ def of_row(row: Row[Any]) -> wire.Query:
         annotator=row.annotator,
         units=None if row.units is None else to_units(row.units),
         seconds=row.seconds,
+        active_seconds=row.active_seconds,
     )
 
 
@@ -183,6 +188,7 @@ def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Cont
     words = kinds.Words.of(wire.Vocabulary.model_validate_json(run_row.vocabulary))
     for one in new:
         kinds.check_ask(one.ask, words, ["body", "queries", body.queries.index(one.ask)])
+    frames.check_stored(tx, [one.ask for one in new])
     waiting = select(func.count()).where(queries.c.run_id == run_row.id, queries.c.state.in_(runs.UNANSWERED))
     n_open = tx.conn.execute(waiting).scalar_one()
     if n_open + len(new) > most_open:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from sqlalchemy import bindparam, insert, select, update
 from sqlalchemy.sql.elements import ColumnElement
 
-from server import choosing, errors, live, presence, queries, runs, wire
+from server import activity, choosing, errors, live, presence, queries, runs, wire
 from server.choosing import Taker
 from server.database import Tx
 from server.settings import Settings
@@ -27,7 +27,15 @@ class Wish:
     def of(cls, lease: wire.Lease, user: int, settings: Settings, after: int | None = None) -> "Wish":
         """Return the wish a message states."""
         kinds = None if lease.kinds is None else tuple(sorted(set(lease.kinds)))
-        taker = Taker(user, kinds, lease.run, lease.defer, settings.presence_seconds)
+        taker = Taker(
+            user,
+            kinds,
+            lease.run,
+            lease.defer,
+            lease.ahead,
+            settings.presence_seconds,
+            settings.follow_up_seconds,
+        )
         return cls(taker, settings.lease_seconds, after)
 
 
@@ -75,6 +83,7 @@ def lease(tx: Tx, wish: Wish) -> wire.Assignment | None:
 
 def grant(tx: Tx, query: int, user: int, seconds: float, *, deferring: bool, after: int | None = None) -> int:
     """Give a query to an annotator; the store allows one live assignment per query."""
+    activity.begin(tx, user)
     tx.conn.execute(_LEASED, {"query": query})
     lease = {
         "query_id": query,
@@ -159,20 +168,23 @@ def refuse_ended(held: Held, now: float) -> None:
         raise errors.LeaseEnded(f"The assignment was {held.state} before.")
 
 
-def renew(tx: Tx, assignment: int, user: int, token: str, settings: Settings) -> wire.Renewal:
+def renew(tx: Tx, assignment: int, user: int, body: wire.Renew, settings: Settings) -> wire.Renewal:
     """Let a live lease start anew, but never past its cap."""
-    held = hold(tx, assignment, user, token)
+    held = hold(tx, assignment, user, body.token)
+    if body.active:
+        activity.signal(tx, user, settings.idle_seconds)
     expires_at = min(tx.now + settings.lease_seconds, held.leased_at + settings.lease_cap_seconds)
     expires_at = max(expires_at, held.expires_at)
     tx.conn.execute(update(assignments).where(assignments.c.id == held.id).values(expires_at=expires_at))
     return wire.Renewal(expires_at=expires_at)
 
 
-def release(tx: Tx, assignment: int, user: int, body: wire.Release) -> None:
+def release(tx: Tx, assignment: int, user: int, body: wire.Release, settings: Settings) -> None:
     """Give a query back; a skipped one is not offered to this annotator again."""
     held = hold(tx, assignment, user, body.token)
     reopen(tx, [held.query], "skipped" if body.skip else "released", reason=body.reason)
     if body.skip:
+        activity.take(tx, user, settings.idle_seconds)  # it is not the next query's
         tx.conn.execute(insert(skips).values(query_id=held.query, user_id=user))
 
 

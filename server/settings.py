@@ -20,12 +20,19 @@ class Settings(BaseSettings):
     presence_seconds: float = Field(
         default=15.0, gt=0, description="How long after asking an annotator counts as at work."
     )
+    idle_seconds: float = Field(
+        default=30.0, gt=0, description="The most that a gap between two signs of activity counts as active."
+    )
+    follow_up_seconds: float = Field(
+        default=20.0, ge=0, description="How long a follow-up is kept for who is at work on its episode."
+    )
     reap_seconds: float = Field(default=1.0, gt=0, description="How often expired leases are swept up.")
     poll_seconds: float = Field(
         default=0.5, gt=0, description="How often a long poll looks by itself (other processes)."
     )
     max_open_queries: int = Field(default=10_000, gt=0, description="Unanswered queries one run may have.")
     max_body_bytes: int = Field(default=4 * 2**20, gt=0, description="Largest request body.")
+    max_frame_bytes: int = Field(default=2**20, gt=0, description="Largest picture of a state.")
     body_seconds: float = Field(default=30.0, gt=0, description="Longest time a request body may take to arrive.")
     link_seconds: float = Field(default=900.0, gt=0, description="How long a login link is good.")
     session_seconds: float = Field(default=30 * 86_400.0, gt=0, description="How long a browser stays logged in.")

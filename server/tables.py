@@ -12,6 +12,7 @@ from sqlalchemy import (
     ForeignKey,
     Index,
     Integer,
+    LargeBinary,
     MetaData,
     Table,
     Text,
@@ -174,6 +175,7 @@ answers = Table(
     Column("revision", Integer),
     Column("units", BigInteger, nullable=False),
     Column("seconds", Float, nullable=False),
+    Column("active_seconds", Float, nullable=False),
     Column("created_at", Float, nullable=False),
     UniqueConstraint("query_id", "revision"),
     UniqueConstraint("user_id", "idempotency_key"),
@@ -197,6 +199,7 @@ ledger = Table(
     Column("units", BigInteger, nullable=False),
     Column("lo_units", BigInteger, nullable=False),
     Column("seconds", Float, nullable=False),
+    Column("active_seconds", Float, nullable=False),
     Column("created_at", Float, nullable=False),
     one_of("entry", "charge", "refund"),
     one_of("kind", *KIND_WORDS),
@@ -225,6 +228,25 @@ presence = Table(
     Column("run_id", Text, ForeignKey("runs.id")),
     Column("kinds", Text),
     Column("asked_at", Float, nullable=False),
+)
+
+# How long an annotator has been active since the last answer. A person's time counts once, whatever they hold.
+activity = Table(
+    "activity",
+    metadata,
+    Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
+    Column("active_seconds", Float, nullable=False),
+    Column("signalled_at", Float, nullable=False),
+    CheckConstraint("active_seconds >= 0", name="not_negative"),
+)
+
+# Pictures of states, by the SHA-256 of the file; never changed, and kept for as long as the store.
+frames = Table(
+    "frames",
+    metadata,
+    Column("hash", Text, primary_key=True),
+    Column("png", LargeBinary, nullable=False),
+    Column("created_at", Float, nullable=False),
 )
 
 episodes = Table(

@@ -22,6 +22,7 @@ Role = Literal["admin", "learner", "annotator", "viewer"]
 Name = Annotated[str, Field(min_length=1, max_length=100, pattern=r"^[^\x00-\x1f\x7f]+$")]
 Note = Annotated[str, Field(max_length=500, pattern=r"^[^\x00]*$")]
 Units = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
+FrameHash = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$", description="The SHA-256 of a PNG, in hexadecimal.")]
 
 
 class Message(BaseModel):
@@ -95,6 +96,12 @@ class Segment(Message):
     subgoal: Name | None = Field(description="The subgoal the learner pursued; null for a flat policy.")
     states: list[JsonValue] = Field(max_length=10_000, description="s_1 .. s_{H+1}, in the domain's JSON view.")
     actions: list[Name] = Field(max_length=10_000, description="a_1 .. a_H, one fewer than the states.")
+    frames: list[FrameHash] = Field(
+        default_factory=list,
+        max_length=10_000,
+        description="A picture of each state, uploaded before; none where the page draws the states itself. Pictures "
+        "are not part of what is asked: asking again with others changes nothing.",
+    )
 
 
 class AskBase(Message):
@@ -179,6 +186,7 @@ class Query(Message):
     annotator: str | None = Field(description="Who answered, or who holds it now.")
     units: float | None = Field(description="What the answer cost.")
     seconds: float | None = Field(description="From lease to answer, by the server's clock.")
+    active_seconds: float | None = Field(description="The annotator's own time for it, without idle time.")
 
 
 class Asked(Message):
@@ -205,6 +213,28 @@ class AnswerPage(Message):
 
     queries: list[Query]
     cursor: int
+
+
+# --- frames: pictures of states, where the page has no renderer -----------------------------------------------------
+
+
+class Frame(Message):
+    """A PNG and the hash that it goes by."""
+
+    hash: FrameHash
+    png: str = Field(min_length=1, max_length=2**23, pattern=r"^[A-Za-z0-9+/]+=*$", description="The file in base64.")
+
+
+class FrameUpload(Message):
+    """Frames to keep. Uploading one again changes nothing."""
+
+    frames: list[Frame] = Field(min_length=1, max_length=1_000)
+
+
+class FrameHashes(Message):
+    """Frames by their hashes."""
+
+    hashes: list[FrameHash] = Field(max_length=10_000)
 
 
 # --- runs -----------------------------------------------------------------------------------------------------------
@@ -311,7 +341,8 @@ class Curves(Message):
     test_success: list[bool | None]
     cost: list[float]
     lo_cost: list[float] = Field(description="Units spent on LO labels: actions and terminations.")
-    seconds: list[float] = Field(description="Annotators' seconds.")
+    seconds: list[float] = Field(description="Annotators' seconds, from lease to answer.")
+    active_seconds: list[float] = Field(description="Annotators' own time, without idle time.")
     cost_by_kind: dict[Kind, list[float]]
     hi_labels: list[int] = Field(description="Size of D_HI.")
     lo_samples: list[int] = Field(description="LO-level steps taken in training rollouts.")
@@ -332,6 +363,7 @@ class CostOfKind(Message):
     units: float
     lo_units: float
     seconds: float
+    active_seconds: float
 
 
 class Costs(Message):
@@ -340,6 +372,7 @@ class Costs(Message):
     total: float
     lo_total: float
     seconds: float
+    active_seconds: float
     by_kind: dict[Kind, CostOfKind]
     reserved: float
     budget: float | None
@@ -372,6 +405,11 @@ class Lease(Message):
         allow_inf_nan=False,
         description="Leave a query this many seconds to other annotators who are at work and take its kind. A bot that "
         "helps people sets it; nobody else need.",
+    )
+    ahead: bool = Field(
+        default=False,
+        description="To be answered after what the annotator holds already: only while enough queries are left for "
+        "everybody else at work.",
     )
 
 
@@ -408,6 +446,7 @@ class Receipt(Message):
     answer: int
     units: float
     seconds: float
+    active_seconds: float
     next: Assignment | None
 
 
@@ -415,6 +454,14 @@ class TokenPost(Message):
     """Shows that the caller holds the lease."""
 
     token: str = Field(max_length=200)
+
+
+class Renew(TokenPost):
+    """A heartbeat."""
+
+    active: bool = Field(
+        default=False, description="The annotator did something since the last one: pressed, pointed, scrolled."
+    )
 
 
 class Release(Message):

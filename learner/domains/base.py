@@ -8,7 +8,7 @@ the paper are derived (`learner/experts/oracle.py`). `learner/domains/corridor.p
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import entry_points
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import gymnasium
 import numpy as np
@@ -100,6 +100,14 @@ class Domain(Protocol):
         It is what reinforcement learning of subgoals is given (Algorithm 3): terminal(s; g), success(s; g), and from
         both the pseudo-reward. Origin and state are JSON views. Imitation does without: it learns terminations.
         """
+
+
+@runtime_checkable
+class Pictured(Protocol):
+    """A domain that also brings pictures of its states, so that the page can show it without a renderer of its own."""
+
+    def frame(self, env: gymnasium.Env[Any, Any]) -> NDArray[np.uint8]:
+        """Return the picture of the state that `env` is in, uint8[rows, columns, 3]; at most 4,096 on a side."""
 
 
 def find_domain(name: str) -> Domain:

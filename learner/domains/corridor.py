@@ -2,7 +2,7 @@
 
 Thirteen cells in a row, doors at cells 0, 4, 8 and 12. The agent starts somewhere and must reach a target cell.
 Subgoals: the next door to the west, the next door to the east, the target (valid between the doors around it). Actions:
-west, east.
+west, east. The page has no renderer for it: it shows the pictures that `frame` draws.
 """
 
 from collections.abc import Sequence
@@ -21,6 +21,8 @@ CELLS = 13
 DOORS = 4  # cells from door to door
 MAX_STEPS = 30
 WEST, EAST, TARGET = 0, 1, 2
+PIXELS = 40  # of a cell, on a side
+FLOOR, DOOR, GOAL, AGENT = (238, 235, 227), (176, 168, 150), (160, 106, 0), (11, 92, 150)
 
 
 @dataclass(frozen=True)
@@ -158,6 +160,16 @@ class CorridorDomain:
     def state_view(self, env: Any) -> Any:
         """Return the agent's cell."""
         return env.unwrapped.cell
+
+    def frame(self, env: Any) -> NDArray[np.uint8]:
+        """Return a picture: the cells in a row, doors darker, the target as a frame, the agent as a square in it."""
+        cells = np.full((PIXELS, CELLS, PIXELS, 3), FLOOR, np.uint8)
+        cells[:, ::DOORS] = DOOR
+        cells[:, :, 0] = cells[0] = cells[-1] = 255  # the lines between
+        cells[4:-4, env.unwrapped.corridor.target, 4:-4] = GOAL
+        cells[9:-9, env.unwrapped.corridor.target, 9:-9] = FLOOR
+        cells[13:-13, env.unwrapped.cell, 13:-13] = AGENT
+        return cells.reshape(PIXELS, CELLS * PIXELS, 3)
 
     def succeeded(self, env: Any) -> bool:
         """Return whether the agent is on the target."""

@@ -59,7 +59,7 @@ async def answer(
 ) -> wire.Receipt:
     """Answer: stored, charged and closed in one transaction, acknowledged when it is on disk."""
     wish = queue.Wish.of(body.next, caller.user, context.settings, after=assignment) if body.next else None
-    post = answering.Post(assignment, caller.user, body.token, body.answer, key)
+    post = answering.Post(assignment, caller.user, body.token, body.answer, key, context.settings.idle_seconds)
     outcome = await context.db.write(lambda tx: answering.answer(tx, post, wish))
     receipt = outcome.receipt()
     if wish is None or body.next is None or receipt.next is not None or body.next.wait == 0:
@@ -69,16 +69,17 @@ async def answer(
 
 
 @router.post("/{assignment}/renew", operation_id="renew", responses=refusals(*HELD))
-async def renew(assignment: AssignmentId, body: wire.TokenPost, context: Ctx, caller: AnnotatorCalls) -> wire.Renewal:
+async def renew(assignment: AssignmentId, body: wire.Renew, context: Ctx, caller: AnnotatorCalls) -> wire.Renewal:
     """Keep the lease: it lives from now on for its full length, up to the server's cap."""
     settings = context.settings
-    return await context.db.write(lambda tx: queue.renew(tx, assignment, caller.user, body.token, settings))
+    return await context.db.write(lambda tx: queue.renew(tx, assignment, caller.user, body, settings))
 
 
 @router.post("/{assignment}/release", status_code=204, operation_id="release", responses=refusals(*HELD))
 async def release(assignment: AssignmentId, body: wire.Release, context: Ctx, caller: AnnotatorCalls) -> None:
     """Give the query back, unanswered; with `skip`, not to be offered it again."""
-    await context.db.write(lambda tx: queue.release(tx, assignment, caller.user, body))
+    settings = context.settings
+    await context.db.write(lambda tx: queue.release(tx, assignment, caller.user, body, settings))
 
 
 @router.post(

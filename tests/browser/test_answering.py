@@ -199,6 +199,38 @@ def test_reduced_motion_shows_the_end_and_plays_nothing(open_page: Open, learner
     expect(scrubber).to_have_attribute("aria-valuetext", "step 0 of 21, action up, subgoal north")
 
 
+def test_a_key_can_be_changed_and_is_remembered(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("own keys")
+    first, second = learner.ask(run, ask("inspect_full", 0), ask("inspect_full", 1, question="The next one"))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, ask("inspect_full")["question"])
+    press(page, "?")
+    dialog = page.get_by_role("dialog", name="Keys")
+    dialog.get_by_role("button", name="Change the key of Pass").click()
+    press(page, "f")
+    expect(dialog.get_by_role("status")).to_contain_text("F already means “Fail”")
+    press(page, "Escape")
+    expect(dialog.get_by_role("status")).to_contain_text("Nothing was changed")
+    dialog.get_by_role("button", name="Change the key of Pass").click()
+    press(page, "j")
+    expect(dialog.get_by_role("status")).to_contain_text("is J now")
+    press(page, "Escape")
+    expect(dialog).to_be_hidden()
+    expect(page.get_by_role("button", name="Pass")).to_contain_text("J")
+    press(page, "p")
+    press(page, "j")
+    assert learner.answer_of(first)["verdict"] == "pass"
+    wait_for_heading(page, "The next one")
+    page.reload()
+    wait_for_heading(page, "The next one")
+    press(page, "?")
+    dialog.get_by_role("button", name="Reset all keys").click()
+    press(page, "Escape")
+    press(page, "j")
+    press(page, "p")
+    assert learner.answer_of(second)["verdict"] == "pass"
+
+
 def test_every_key_of_a_mode_is_in_the_help(open_page: Open, learner: Learner) -> None:
     run = learner.create_run("help")
     learner.ask(run, ask("label_hi"))

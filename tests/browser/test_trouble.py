@@ -15,25 +15,39 @@ from tests.browser.kit import Complaints, Learner, ask, log_in, login_link, wait
 QUESTION = ask("inspect_full")["question"]
 
 
+def wait_until_leased(learner: Learner, *queries: int) -> None:
+    """Wait until the page has these queries."""
+    deadline = time.monotonic() + 15
+    while any(learner.query(query)["state"] != "leased" for query in queries):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
 def test_an_answer_survives_an_outage(open_page: Open, learner: Learner, complaints: Complaints) -> None:
     complaints.expect("net::ERR_")
     run = learner.create_run("outage")
-    first, second = learner.ask(run, ask("inspect_full", 0), ask("inspect_full", 1, question="After the outage"))
+    questions = (QUESTION, "Leased ahead", "After the outage")
+    asks = [ask("inspect_full", episode, question=one) for episode, one in enumerate(questions)]
+    first, second, third = learner.ask(run, *asks)
     page = open_page(f"/work?run={run}", intercepted=True)
     wait_for_heading(page, QUESTION)
+    wait_until_leased(learner, second)
     page.route("**/api/**", lambda route: route.abort())
     page.keyboard.press("f")
+    wait_for_heading(page, "Leased ahead")
     expect(page.get_by_text("1 unsaved")).to_be_visible()
+    page.keyboard.press("p")
     wait_for_heading(page, "The server cannot be reached")
-    expect(page.get_by_text("1 answer kept here")).to_be_visible()
+    expect(page.get_by_text("2 answers kept here")).to_be_visible()
     assert learner.query(first)["answer"] is None
     page.unroute("**/api/**")
     assert learner.answer_of(first) == {"kind": "inspect_full", "verdict": "fail"}
+    assert learner.answer_of(second) == {"kind": "inspect_full", "verdict": "pass"}
     wait_for_heading(page, "After the outage")
-    expect(page.get_by_text("1 unsaved")).to_be_hidden()
+    expect(page.get_by_text("unsaved")).to_be_hidden()
     page.keyboard.press("p")
-    learner.answer_of(second)
-    assert learner.call("GET", f"/runs/{run}/costs")["total"] == 2
+    learner.answer_of(third)
+    assert learner.call("GET", f"/runs/{run}/costs")["total"] == 3
 
 
 def test_an_answer_whose_receipt_was_lost_counts_once(
@@ -55,9 +69,10 @@ def test_an_answer_whose_receipt_was_lost_counts_once(
 
     page.route("**/answer", lose_first)
     page.keyboard.press("p")
-    wait_for_heading(page, "The next one")  # at once: the same receipt brings the same next query
-    assert lost == [200]
+    wait_for_heading(page, "The next one")
     learner.answer_of(query)
+    expect(page.get_by_text("unsaved")).to_be_hidden()
+    assert lost == [200]
     assert learner.call("GET", f"/runs/{run}/costs")["total"] == 1
 
 
@@ -88,17 +103,91 @@ def test_a_reload_goes_on_with_the_same_query(open_page: Open, learner: Learner)
     wait_for_heading(page, ask("label_hi")["question"])
 
 
-def test_leaving_gives_the_query_back(open_page: Open, learner: Learner) -> None:
-    run = learner.create_run("leaving")
-    learner.ask(run, ask("inspect_full"))
+def test_leaving_gives_back_what_is_held_and_the_back_button_takes_it_up_again(
+    open_page: Open, learner: Learner
+) -> None:
+    run = learner.create_run("back")
+    held = learner.ask(run, ask("inspect_full", 0), ask("inspect_full", 1, question="The next one"))
     page = open_page(f"/work?run={run}")
     wait_for_heading(page, QUESTION)
+    wait_until_leased(learner, *held)
     page.get_by_role("link", name="Runs").click()
     page.get_by_role("heading", name="Runs").wait_for()
     other = open_page(f"/work?run={run}")
     wait_for_heading(other, QUESTION)
+    wait_until_leased(learner, *held)
     other.close()
-    wait_for_heading(open_page(f"/work?run={run}"), QUESTION)
+    page.go_back()
+    wait_for_heading(page, QUESTION)
+    page.keyboard.press("p")
+    wait_for_heading(page, "The next one")
+
+
+def test_two_tabs_of_one_person_answer_different_queries(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("two tabs")
+    asks = [ask("inspect_full", episode, question=f"Question {episode}") for episode in range(4)]
+    queries = learner.ask(run, *asks)
+    one = open_page(f"/work?run={run}")
+    wait_for_heading(one, "Question 0")
+    two = one.context.new_page()
+    two.goto(f"/work?run={run}")
+    two.get_by_role("heading", name="Question").wait_for()
+    assert one.locator("#question").text_content() != two.locator("#question").text_content()
+    for page in (two, one):
+        page.bring_to_front()
+        page.keyboard.press("p")
+        page.keyboard.press("f")
+    two.close()
+    one.bring_to_front()
+    while one.locator("#question").text_content() != "Waiting for the learner":
+        one.keyboard.press("p")
+        one.wait_for_timeout(100)
+    assert all(learner.answer_of(query) for query in queries)
+    assert learner.call("GET", f"/runs/{run}/costs")["total"] == 4
+
+
+def test_two_people_share_a_run_and_none_of_it_is_answered_twice(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("two people")
+    asks = [ask("inspect_full", episode, question=f"Question {episode}") for episode in range(6)]
+    queries = learner.ask(run, *asks)
+    pages = [open_page(f"/work?run={run}") for _ in range(2)]
+    for page in pages:
+        page.get_by_role("heading", name="Question").wait_for()
+    while any(page.locator("#question").text_content() != "Waiting for the learner" for page in pages):
+        for page in pages:
+            page.keyboard.press("p")
+            page.wait_for_timeout(50)
+    answered = [learner.query(query) for query in queries]
+    assert len({one["annotator"] for one in answered}) == 2
+    assert learner.call("GET", f"/runs/{run}/costs")["total"] == 6
+
+
+def test_an_episode_stays_with_the_person_who_is_at_it(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("follow-up")
+    [query] = learner.ask(run, ask("inspect_full"))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, QUESTION)
+    other = open_page(f"/work?run={run}")
+    wait_for_heading(other, "Waiting for the learner")
+    page.keyboard.press("f")
+    learner.answer_of(query)
+    [follow_up] = learner.ask(run, ask("label_hi", ordinal=1))
+    wait_for_heading(page, ask("label_hi")["question"])
+    wait_for_heading(other, "Waiting for the learner")
+    page.keyboard.press("Shift+Enter")
+    assert learner.answer_of(follow_up)
+    assert learner.query(follow_up)["annotator"] == learner.query(query)["annotator"]
+
+
+def test_what_happens_to_a_query_is_announced(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("announced")
+    learner.ask(run, ask("inspect_full", 0), ask("inspect_lo", 1))
+    page = open_page(f"/work?run={run}")
+    said = page.locator("[aria-live=polite]").first
+    expect(said).to_have_text("Query 1, Inspect_FULL")
+    page.keyboard.press("p")
+    expect(said).to_have_text("Query 2, Inspect_LO, subgoal east")
+    wait_for_heading(page, ask("inspect_lo")["question"])
 
 
 def test_undo_takes_the_last_answer_back_with_its_labels(open_page: Open, learner: Learner) -> None:
@@ -164,6 +253,64 @@ def test_a_lease_that_ran_out_is_explained_and_work_goes_on(
     expect(page.get_by_text("went back to the queue")).to_be_visible()
     wait_for_heading(page, QUESTION)
     learner.close()
+
+
+def test_an_answer_after_a_sleep_past_the_lease_is_explained_and_its_labels_are_kept(
+    built_page: Path, tmp_path: Path, open_page: Open, complaints: Complaints
+) -> None:
+    complaints.expect("409")
+    complaints.expect("net::ERR_")
+    settings = Settings(database=f"sqlite:///{tmp_path / 'waypost.db'}", page=built_page, lease_seconds=3)
+    with serving.background(settings) as served:
+        learner = Learner(served)
+        run = learner.create_run("asleep")
+        [query] = learner.ask(run, ask("label_hi"))
+        page = open_page(f"/work?run={run}", at=served, intercepted=True)
+        wait_for_heading(page, ask("label_hi")["question"])
+        page.route("**/renew", lambda route: route.abort())  # asleep, it beats no more
+        page.keyboard.press("w")
+        deadline = time.monotonic() + 15
+        while learner.query(query)["state"] == "leased" and time.monotonic() < deadline:
+            time.sleep(0.1)
+        page.unroute("**/renew")
+        page.keyboard.press("Shift+Enter")
+        expect(page.get_by_text("after the time on the query had run out")).to_be_visible()
+        wait_for_heading(page, ask("label_hi")["question"])
+        expect(page.get_by_text("5 of 5")).to_be_visible()
+        page.keyboard.press("Enter")
+        assert learner.answer_of(query)["subgoals"][0] == "west"
+        assert learner.call("GET", f"/runs/{run}/costs")["total"] == 5
+        page.goto("/login")
+        learner.close()
+
+
+def test_a_server_that_restarts_while_one_answers_loses_nothing(
+    built_page: Path, tmp_path: Path, open_page: Open, complaints: Complaints
+) -> None:
+    complaints.expect("net::ERR_")
+    settings = Settings(database=f"sqlite:///{tmp_path / 'waypost.db'}", page=built_page)
+    with serving.background(settings) as served:
+        learner = Learner(served)
+        run = learner.create_run("restarted")
+        asks = [ask("inspect_full", episode, question=f"Question {episode}") for episode in range(3)]
+        queries = learner.ask(run, *asks)
+        page = open_page(f"/work?run={run}", at=served)
+        wait_for_heading(page, "Question 0")
+        wait_until_leased(learner, *queries[:2])
+        learner.close()
+    page.keyboard.press("f")
+    wait_for_heading(page, "Question 1")
+    expect(page.get_by_text("1 unsaved")).to_be_visible()
+    page.keyboard.press("p")
+    wait_for_heading(page, "The server cannot be reached")
+    with serving.background(settings, port=int(served.url.rpartition(":")[2])) as again:
+        wait_for_heading(page, "Question 2")
+        page.keyboard.press("p")
+        learner = Learner(again)
+        assert [learner.answer_of(query)["verdict"] for query in queries] == ["fail", "pass", "pass"]
+        assert learner.call("GET", f"/runs/{run}/costs")["total"] == 3
+        page.goto("/login")
+        learner.close()
 
 
 def test_a_login_link_opens_once(open_page: Open, served: serving.Served, complaints: Complaints) -> None:

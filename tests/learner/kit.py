@@ -149,11 +149,14 @@ def corridor(**values: Any) -> TrainConfig:
 
 
 def history(client: Client, run: str) -> list[tuple[Any, ...]]:
-    """All that was asked, answered and charged in a run, by episode and ordinal."""
+    """All that was asked (its pictures aside), answered and charged in a run, by episode and ordinal."""
     found, cursor = [], 0
+    pictures: Any = {part: {"__all__": {"frames"}} for part in ("segments", "context")}
     while (page := client.answers(run, cursor)).queries:
         cursor = page.cursor
-        found += [(q.ask.episode, q.ask.ordinal, q.ask.model_dump(), q.answer, q.units) for q in page.queries]
+        found += [
+            (q.ask.episode, q.ask.ordinal, q.ask.model_dump(exclude=pictures), q.answer, q.units) for q in page.queries
+        ]
     return sorted(found, key=lambda row: row[:2])
 
 

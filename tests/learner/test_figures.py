@@ -133,6 +133,7 @@ def run_of(
         cost=[sum(column) for column in zip(*by_kind.values(), strict=True)],
         lo_cost=list(costs.get("lo_cost", [0.0] * n)),
         seconds=[0.0] * n,
+        active_seconds=[0.0] * n,
         cost_by_kind=by_kind,
         hi_labels=list(hi or [0] * n),
         lo_samples=[10 * (row + 1) for row in range(n)],

@@ -1,6 +1,9 @@
 """What the server's tests are written with: a service with one user per role, and short ways to call it."""
 
+import base64
+import hashlib
 import threading
+import zlib
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -106,8 +109,8 @@ class Caller:
     def release(self, assignment: Json, expect: int = 204, **more: Any) -> Any:
         return self.post(f"/assignments/{assignment['id']}/release", {"token": assignment["token"]} | more, expect)
 
-    def renew(self, assignment: Json, expect: int = 200) -> Any:
-        return self.post(f"/assignments/{assignment['id']}/renew", {"token": assignment["token"]}, expect)
+    def renew(self, assignment: Json, expect: int = 200, **more: Any) -> Any:
+        return self.post(f"/assignments/{assignment['id']}/renew", {"token": assignment["token"]} | more, expect)
 
 
 class Service:
@@ -150,3 +153,19 @@ def together(work: Callable[[int], Any], n: int) -> list[Any]:
 
     with ThreadPoolExecutor(n) as pool:
         return list(pool.map(one, range(n)))
+
+
+def png(shade: int = 0, width: int = 2, height: int = 2) -> bytes:
+    """A PNG of one gray."""
+
+    def chunk(name: bytes, data: bytes) -> bytes:
+        return len(data).to_bytes(4) + name + data + zlib.crc32(name + data).to_bytes(4)
+
+    header = width.to_bytes(4) + height.to_bytes(4) + bytes([8, 0, 0, 0, 0])
+    rows = (b"\x00" + bytes([shade]) * width) * height
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+def frame(file: bytes) -> Json:
+    """A file as it is uploaded."""
+    return {"hash": hashlib.sha256(file).hexdigest(), "png": base64.b64encode(file).decode()}

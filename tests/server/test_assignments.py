@@ -201,3 +201,48 @@ def test_two_bots_do_not_wait_for_each_other(service: Service) -> None:
     service.learner.ask(run, query(), query(ordinal=1))
     one.lease(defer=60)
     two.lease(defer=60)
+
+
+def test_a_follow_up_is_kept_for_who_is_at_work_on_its_episode(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, query("inspect_full"))
+    service.annotator.answer(service.annotator.lease())
+    service.learner.ask(run, query("label_hi", ordinal=1))
+    otto = service.user("otto", "annotator")
+    assert otto.lease(expect=204) is None
+    assert kinds_of(service.annotator.lease()) == ["label_hi"]
+
+
+def test_a_follow_up_is_kept_for_a_while_only(database_url: str) -> None:
+    with in_process(database_url, follow_up_seconds=0.5) as service:
+        run = service.learner.create_run()
+        service.learner.ask(run, query())
+        service.annotator.answer(service.annotator.lease())
+        service.learner.ask(run, query(ordinal=1))
+        held = service.user("otto", "annotator").lease(wait=10)
+        assert held["leased_at"] - held["query"]["created_at"] >= 0.5
+
+
+def test_a_follow_up_waits_neither_for_the_absent_nor_for_whom_it_is_not_for(database_url: str) -> None:
+    with in_process(database_url, presence_seconds=0.2) as service:
+        otto = service.user("otto", "annotator")
+        run = service.learner.create_run()
+        service.learner.ask(run, query())
+        service.annotator.answer(service.annotator.lease(kinds=["inspect_full"]))
+        service.learner.ask(run, query("label_hi", ordinal=1), query("inspect_full", ordinal=2))
+        assert kinds_of(otto.lease()) == ["label_hi"], "the other takes no such kind"
+        time.sleep(0.3)
+        assert kinds_of(otto.lease()) == ["inspect_full"], "the other has gone"
+
+
+def test_what_is_leased_ahead_leaves_enough_for_everybody_at_work(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, *(query(episode=number) for number in range(3)))
+    service.annotator.lease()
+    service.annotator.lease(ahead=True)
+    otto = service.user("otto", "annotator")
+    assert service.annotator.lease(ahead=True)["query"]["ask"]["episode"] == 2, "nobody else was at work"
+    assert otto.lease(expect=204) is None
+    service.learner.ask(run, query(episode=3))
+    assert service.annotator.lease(ahead=True, expect=204) is None, "otto has none"
+    otto.lease()

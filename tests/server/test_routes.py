@@ -28,6 +28,9 @@ MATRIX: dict[str, set[str]] = {
     "renew": {"admin", "annotator"},
     "release": {"admin", "annotator"},
     "retract": {"admin", "annotator"},
+    "putFrames": {"admin", "learner"},
+    "missingFrames": {"admin", "learner"},
+    "getFrame": ANYONE,
     "listUsers": {"admin"},
     "createUser": {"admin"},
     "createLoginLink": {"admin"},
@@ -62,7 +65,7 @@ def operations() -> list[tuple[str, str, str]]:
 def called(service: Service, method: str, path: str, headers: dict[str, str]) -> int:
     for name in ("run", "query", "assignment", "user", "token"):
         path = path.replace(f"{{{name}}}", "1")
-    body = {"json": {}} if method in {"POST", "PATCH"} else {}
+    body = {"json": {}} if method in {"POST", "PATCH", "PUT"} else {}
     return service.client.request(method, path, headers=headers, **body).status_code
 
 

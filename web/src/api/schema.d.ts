@@ -317,6 +317,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/frames": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Put Frames
+         * @description Upload pictures of states, all of them or none; those uploaded before stay as they are.
+         */
+        put: operations["putFrames"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/frames/missing": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Missing Frames
+         * @description Return which of these frames have to be uploaded.
+         */
+        post: operations["missingFrames"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/frames/{frame}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Frame
+         * @description Return a picture; what a hash names never changes.
+         */
+        get: operations["getFrame"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/session": {
         parameters: {
             query?: never;
@@ -557,7 +617,7 @@ export interface components {
              * Context
              * @description Segments that came before, shown but not asked about.
              */
-            context?: components["schemas"]["Segment"][];
+            context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
              * @description The learner's own choice, as an answer to this query; what it did, not what is right.
@@ -669,7 +729,7 @@ export interface components {
              * Context
              * @description Segments that came before, shown but not asked about.
              */
-            context?: components["schemas"]["Segment"][];
+            context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
              * @description The learner's own choice, as an answer to this query; what it did, not what is right.
@@ -681,7 +741,7 @@ export interface components {
              */
             kind: "inspect_full";
             /** Segments */
-            segments: components["schemas"]["Segment"][];
+            segments: components["schemas"]["SegmentInput"][];
         };
         /**
          * AskInspectFull
@@ -749,7 +809,7 @@ export interface components {
              * Context
              * @description Segments that came before, shown but not asked about.
              */
-            context?: components["schemas"]["Segment"][];
+            context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
              * @description The learner's own choice, as an answer to this query; what it did, not what is right.
@@ -761,7 +821,7 @@ export interface components {
              */
             kind: "inspect_lo";
             /** Segments */
-            segments: components["schemas"]["Segment"][];
+            segments: components["schemas"]["SegmentInput"][];
         };
         /**
          * AskInspectLo
@@ -829,7 +889,7 @@ export interface components {
              * Context
              * @description Segments that came before, shown but not asked about.
              */
-            context?: components["schemas"]["Segment"][];
+            context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
              * @description The learner's own choice, as an answer to this query; what it did, not what is right.
@@ -841,7 +901,7 @@ export interface components {
              */
             kind: "label_full";
             /** Segments */
-            segments: components["schemas"]["Segment"][];
+            segments: components["schemas"]["SegmentInput"][];
         };
         /**
          * AskLabelFull
@@ -909,7 +969,7 @@ export interface components {
              * Context
              * @description Segments that came before, shown but not asked about.
              */
-            context?: components["schemas"]["Segment"][];
+            context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
              * @description The learner's own choice, as an answer to this query; what it did, not what is right.
@@ -921,7 +981,7 @@ export interface components {
              */
             kind: "label_hi";
             /** Segments */
-            segments: components["schemas"]["Segment"][];
+            segments: components["schemas"]["SegmentInput"][];
         };
         /**
          * AskLabelHi
@@ -989,7 +1049,7 @@ export interface components {
              * Context
              * @description Segments that came before, shown but not asked about.
              */
-            context?: components["schemas"]["Segment"][];
+            context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
              * @description The learner's own choice, as an answer to this query; what it did, not what is right.
@@ -1001,7 +1061,7 @@ export interface components {
              */
             kind: "label_lo";
             /** Segments */
-            segments: components["schemas"]["Segment"][];
+            segments: components["schemas"]["SegmentInput"][];
         };
         /**
          * AskLabelLo
@@ -1104,6 +1164,8 @@ export interface components {
             lo_units: number;
             /** Seconds */
             seconds: number;
+            /** Active Seconds */
+            active_seconds: number;
         };
         /**
          * Costs
@@ -1116,6 +1178,8 @@ export interface components {
             lo_total: number;
             /** Seconds */
             seconds: number;
+            /** Active Seconds */
+            active_seconds: number;
             /** By Kind */
             by_kind: {
                 [key: string]: components["schemas"]["CostOfKind"];
@@ -1155,9 +1219,14 @@ export interface components {
             lo_cost: number[];
             /**
              * Seconds
-             * @description Annotators' seconds.
+             * @description Annotators' seconds, from lease to answer.
              */
             seconds: number[];
+            /**
+             * Active Seconds
+             * @description Annotators' own time, without idle time.
+             */
+            active_seconds: number[];
             /** Cost By Kind */
             cost_by_kind: {
                 [key: string]: number[];
@@ -1261,6 +1330,38 @@ export interface components {
             data: {
                 [key: string]: components["schemas"]["JsonValue"];
             };
+        };
+        /**
+         * Frame
+         * @description A PNG and the hash that it goes by.
+         */
+        Frame: {
+            /**
+             * Hash
+             * @description The SHA-256 of a PNG, in hexadecimal.
+             */
+            hash: string;
+            /**
+             * Png
+             * @description The file in base64.
+             */
+            png: string;
+        };
+        /**
+         * FrameHashes
+         * @description Frames by their hashes.
+         */
+        FrameHashes: {
+            /** Hashes */
+            hashes: string[];
+        };
+        /**
+         * FrameUpload
+         * @description Frames to keep. Uploading one again changes nothing.
+         */
+        FrameUpload: {
+            /** Frames */
+            frames: components["schemas"]["Frame"][];
         };
         /**
          * Health
@@ -1376,6 +1477,12 @@ export interface components {
              * @default 0
              */
             defer: number;
+            /**
+             * Ahead
+             * @description To be answered after what the annotator holds already: only while enough queries are left for everybody else at work.
+             * @default false
+             */
+            ahead: boolean;
         };
         /**
          * Login
@@ -1582,6 +1689,11 @@ export interface components {
              * @description From lease to answer, by the server's clock.
              */
             seconds: number | null;
+            /**
+             * Active Seconds
+             * @description The annotator's own time for it, without idle time.
+             */
+            active_seconds: number | null;
         };
         /**
          * QueryList
@@ -1604,6 +1716,8 @@ export interface components {
             units: number;
             /** Seconds */
             seconds: number;
+            /** Active Seconds */
+            active_seconds: number;
             next: components["schemas"]["Assignment"] | null;
         };
         /**
@@ -1625,6 +1739,20 @@ export interface components {
              * @default false
              */
             skip: boolean;
+        };
+        /**
+         * Renew
+         * @description A heartbeat.
+         */
+        Renew: {
+            /** Token */
+            token: string;
+            /**
+             * Active
+             * @description The annotator did something since the last one: pressed, pointed, scrolled.
+             * @default false
+             */
+            active: boolean;
         };
         /**
          * Renewal
@@ -1749,6 +1877,32 @@ export interface components {
          * Segment
          * @description One (s_h, g_h, tau_h) of the learner's hierarchical trajectory.
          */
+        SegmentInput: {
+            /**
+             * Subgoal
+             * @description The subgoal the learner pursued; null for a flat policy.
+             */
+            subgoal: string | null;
+            /**
+             * States
+             * @description s_1 .. s_{H+1}, in the domain's JSON view.
+             */
+            states: components["schemas"]["JsonValue"][];
+            /**
+             * Actions
+             * @description a_1 .. a_H, one fewer than the states.
+             */
+            actions: string[];
+            /**
+             * Frames
+             * @description A picture of each state, uploaded before; none where the page draws the states itself. Pictures are not part of what is asked: asking again with others changes nothing.
+             */
+            frames?: string[];
+        };
+        /**
+         * Segment
+         * @description One (s_h, g_h, tau_h) of the learner's hierarchical trajectory.
+         */
         Segment: {
             /**
              * Subgoal
@@ -1765,6 +1919,11 @@ export interface components {
              * @description a_1 .. a_H, one fewer than the states.
              */
             actions: string[];
+            /**
+             * Frames
+             * @description A picture of each state, uploaded before; none where the page draws the states itself. Pictures are not part of what is asked: asking again with others changes nothing.
+             */
+            frames: string[];
         };
         /**
          * TokenCreate
@@ -3129,7 +3288,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["TokenPost"];
+                "application/json": components["schemas"]["Renew"];
             };
         };
         responses: {
@@ -3392,6 +3551,228 @@ export interface operations {
             };
             /** @description Send application/json */
             415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    putFrames: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FrameUpload"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    missingFrames: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FrameHashes"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FrameHashes"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getFrame: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description The SHA-256 of the PNG. */
+                frame: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The picture. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/png": unknown;
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -3,7 +3,12 @@ import type { AskOf } from '../api/types';
 import * as lo from './lo';
 
 const common = { episode: 0, ordinal: 0, question: '', instance: null, context: [] };
-const segment = (actions: string[]) => ({ subgoal: 'east', states: [...actions, 'last'], actions });
+const segment = (actions: string[]) => ({
+  subgoal: 'east',
+  states: [...actions, 'last'],
+  actions,
+  frames: [],
+});
 
 /** One segment of up, right, right; the learner ended it at `end`, or nowhere. */
 function loAsk(end: number | null = 3): AskOf<'label_lo'> {

@@ -10,6 +10,7 @@ const one = {
     [1, 1],
   ],
   actions: ['up', 'up'],
+  frames: ['a', 'b', 'c'],
 };
 const two = {
   subgoal: 'east',
@@ -18,6 +19,7 @@ const two = {
     [1, 2],
   ],
   actions: ['right'],
+  frames: [],
 };
 
 describe('a tape', () => {
@@ -35,6 +37,10 @@ describe('a tape', () => {
       [2, 3, true],
     ]);
     expect(tape.start).toBe(2);
+  });
+
+  it('knows the picture of each frame, where there is one', () => {
+    expect(tape.pictures).toEqual(['a', 'b', 'c', null]);
   });
 
   it('does not join what does not meet', () => {
@@ -66,7 +72,7 @@ describe('a tape', () => {
   });
 
   it('holds segments without actions', () => {
-    const empty = buildTape([], [{ subgoal: 'west', states: [[1, 1]], actions: [] }, two]);
+    const empty = buildTape([], [{ subgoal: 'west', states: [[1, 1]], actions: [], frames: [] }, two]);
     expect(empty.frames).toHaveLength(2);
     expect(stops(empty)).toEqual([0, 1]);
   });

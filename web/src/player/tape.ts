@@ -14,6 +14,8 @@ export interface Stretch {
 /** A query's segments, joined: where one ends the next begins, so the state between them is one frame. */
 export interface Tape {
   readonly frames: readonly Json[];
+  /** The hash of a picture of each frame, where the learner sent one. */
+  readonly pictures: readonly (string | null)[];
   readonly stretches: readonly Stretch[];
   /** The frame where the asked segments begin. */
   readonly start: number;
@@ -21,9 +23,12 @@ export interface Tape {
 
 export function buildTape(context: readonly Segment[], asked: readonly Segment[]): Tape {
   const frames: Json[] = [];
+  const pictures: (string | null)[] = [];
   const stretches = [...context, ...asked].map((segment, index): Stretch => {
     const joined = frames.length > 0 && same(frames.at(-1), segment.states[0]);
-    frames.push(...segment.states.slice(joined ? 1 : 0));
+    const skipped = joined ? 1 : 0;
+    frames.push(...segment.states.slice(skipped));
+    pictures.push(...segment.states.map((_, state) => segment.frames[state] ?? null).slice(skipped));
     const last = frames.length - 1;
     const first = last - segment.states.length + 1;
     return {
@@ -35,7 +40,7 @@ export function buildTape(context: readonly Segment[], asked: readonly Segment[]
       asked: index >= context.length,
     };
   });
-  return { frames, stretches, start: stretches[context.length]?.first ?? 0 };
+  return { frames, pictures, stretches, start: stretches[context.length]?.first ?? 0 };
 }
 
 export function lastFrame(tape: Tape): number {

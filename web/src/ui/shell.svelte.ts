@@ -1,23 +1,38 @@
-import type { Me } from '../api/types';
+import type { Me, Vocabulary } from '../api/types';
 import { PAGE_BINDINGS, type Binding, type Command } from '../keys/registry';
+import { loadKeymap, remapped, saveKeymap, type Keymap } from '../keys/remap';
 
 /** What the frame of the page shows for the view inside it. */
 class Shell {
-  bindings: readonly Binding[] = $state.raw(PAGE_BINDINGS);
+  keymap: Keymap = $state.raw(loadKeymap(localStorage));
+  #given: readonly Binding[] = $state.raw(PAGE_BINDINGS);
+  readonly bindings: readonly Binding[] = $derived(remapped(this.#given, this.keymap));
   unsaved = $state(0);
   me: Me | null = $state.raw(null);
+  vocabulary: Vocabulary | null = $state.raw(null); // of the query on the screen
   helpOpen = $state(false);
   #run: ((command: Command) => void) | null = null;
 
   /** Have a view answer to these keys until the returned function is called. */
   use(bindings: readonly Binding[], run: (command: Command) => void): () => void {
-    this.bindings = bindings;
+    this.#given = bindings;
     this.#run = run;
     return () => {
       if (this.#run !== run) return;
-      this.bindings = PAGE_BINDINGS;
+      this.#given = PAGE_BINDINGS;
       this.#run = null;
     };
+  }
+
+  /** Have a key do something, or (null) whatever came with the page; `id` as `idOf` gives it. */
+  remap(id: string, key: string | null): void {
+    const { [id]: _, ...others } = this.keymap;
+    this.setKeymap(key === null ? others : { ...others, [id]: key });
+  }
+
+  setKeymap(keymap: Keymap): void {
+    this.keymap = keymap;
+    saveKeymap(localStorage, keymap);
   }
 
   run(command: Command): void {

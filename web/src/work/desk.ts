@@ -4,7 +4,7 @@ import { ANSWERABLE, type Answer, type Assignment, type Lease, type Me, type Rec
 /** What the work view asks of the server, besides taking answers. */
 export interface Desk {
   lease(wish: Lease, signal: AbortSignal): Promise<Assignment | null>;
-  renew(held: Held): Promise<unknown>;
+  renew(held: Held, active: boolean): Promise<unknown>;
   release(held: Held, reason: string, skip: boolean): Promise<unknown>;
   retract(held: Held): Promise<Assignment>;
   me(): Promise<Me>;
@@ -26,8 +26,12 @@ export interface Letter extends Held {
 /** Stores an answer; with `next`, the receipt brings the next query. */
 export type SendAnswer = (letter: Letter, next: Lease | null) => Promise<Receipt>;
 
-export function wish(run: string | null, wait: number): Lease {
-  return { wait, kinds: [...ANSWERABLE], run, defer: 0 };
+export function wish(run: string | null, wait: number, ahead = false): Lease {
+  return { wait, kinds: [...ANSWERABLE], run, defer: 0, ahead };
+}
+
+export function heldOf(assignment: Assignment): Held {
+  return { assignment: assignment.id, token: assignment.token };
 }
 
 const path = (held: Held) => ({ path: { assignment: held.assignment } });
@@ -36,8 +40,8 @@ export const restDesk: Desk = {
   async lease(body, signal) {
     return (await unwrap(api.POST('/api/v1/assignments', { body, signal }))) ?? null;
   },
-  renew(held) {
-    const body = { token: held.token };
+  renew(held, active) {
+    const body = { token: held.token, active };
     return unwrap(api.POST('/api/v1/assignments/{assignment}/renew', { params: path(held), body }));
   },
   release(held, reason, skip) {

@@ -1,7 +1,35 @@
 import { Refused } from '../api/client';
 
-/** Keep a lease while the page is visible. `lost` is called when it cannot be kept. Returns how to stop. */
-export function beat(leaseSeconds: number, renew: () => Promise<unknown>, lost: () => void): () => void {
+const SIGNS = ['keydown', 'pointerdown', 'pointermove', 'wheel'] as const;
+
+/** Whether the annotator has done anything since it was last asked. The server's clock does the counting. */
+class Activity {
+  #active = false;
+
+  constructor() {
+    for (const sign of SIGNS) {
+      window.addEventListener(sign, () => (this.#active = true), { capture: true, passive: true });
+    }
+  }
+
+  take(): boolean {
+    const active = this.#active;
+    this.#active = false;
+    return active;
+  }
+}
+
+export const activity = new Activity();
+
+/** A lease that is kept up. */
+export interface Heartbeat {
+  stop(): void;
+  now(): void; // see at once whether the lease is still ours
+}
+export const NO_HEARTBEAT: Heartbeat = { stop: () => undefined, now: () => undefined };
+
+/** Keep a lease while the page is visible. `lost` is called, once, when it cannot be kept. */
+export function beat(leaseSeconds: number, renew: () => Promise<unknown>, lost: () => void): Heartbeat {
   let stopped = false;
 
   async function once(): Promise<void> {
@@ -9,8 +37,15 @@ export function beat(leaseSeconds: number, renew: () => Promise<unknown>, lost: 
     try {
       await renew();
     } catch (error) {
-      if (error instanceof Refused && !stopped) lost();
+      if (!(error instanceof Refused) || stopped) return;
+      stop();
+      lost();
     }
+  }
+  function stop(): void {
+    stopped = true;
+    clearInterval(timer);
+    document.removeEventListener('visibilitychange', onVisible);
   }
   function onVisible(): void {
     void once();
@@ -18,11 +53,7 @@ export function beat(leaseSeconds: number, renew: () => Promise<unknown>, lost: 
 
   const timer = setInterval(() => void once(), (leaseSeconds * 1000) / 3);
   document.addEventListener('visibilitychange', onVisible);
-  return () => {
-    stopped = true;
-    clearInterval(timer);
-    document.removeEventListener('visibilitychange', onVisible);
-  };
+  return { stop, now: onVisible };
 }
 
 /** Resolves when the page can be seen, or when the signal is aborted. */

@@ -1,7 +1,7 @@
 import { isAborted, Refused, Unreachable, wordsOf } from '../api/client';
 import type { Answer, Assignment, Me } from '../api/types';
-import { wish, type Desk, type Held, type Letter } from './desk';
-import { beat, pause, visible } from './heartbeat';
+import { heldOf, wish, type Desk, type Held, type Letter } from './desk';
+import { beat, NO_HEARTBEAT, pause, visible, type Heartbeat } from './heartbeat';
 import type { Mailer } from './mailer';
 import { delay } from './outbox';
 
@@ -16,9 +16,20 @@ const POLL_SECONDS = 20;
 /** The server holds a receipt back so long for the learner's next query. */
 const NEXT_SECONDS = 0.25;
 const UNDO_DEPTH = 10;
+/** Queries held besides the one on the screen, so that the next is there at once. */
+const MOST_AHEAD = 2;
 const ME_EVERY_MS = 5_000;
 
-/** One annotator at work: leases a query, keeps the lease, sends the answer, goes on to the next. */
+/** What is leased and waits for its turn. */
+interface Ahead {
+  readonly assignment: Assignment;
+  readonly heartbeat: Heartbeat;
+}
+
+/**
+ * One annotator at work: leases a query, keeps the lease, sends the answer, goes on to the next. What comes next is
+ * leased ahead where enough is asked, so that it is on the screen before the answer has arrived.
+ */
 export class WorkSession {
   phase: Phase = $state('loading');
   assignment: Assignment | null = $state.raw(null);
@@ -29,21 +40,34 @@ export class WorkSession {
   readonly #desk: Desk;
   readonly #mailer: Mailer;
   readonly #run: string | null; // only this run's queries
+  readonly #active: () => boolean; // has the annotator done anything since it was last asked?
+  readonly #prepare: (assignment: Assignment) => void; // load what a query shows
   readonly #stopListening: () => void;
   #lookup = new AbortController();
-  #stopBeating = (): void => undefined;
+  #lookupAhead = new AbortController();
+  #heartbeat = NO_HEARTBEAT;
+  #ahead: readonly Ahead[] = [];
+  #leasingAhead = false;
   #sending: Promise<unknown> = Promise.resolve();
   #sent: readonly Held[] = []; // what can be undone, oldest first
   #stopped = false;
   #meAt = 0;
 
-  constructor(desk: Desk, mailer: Mailer, run: string | null) {
+  constructor(
+    desk: Desk,
+    mailer: Mailer,
+    run: string | null,
+    active: () => boolean,
+    prepare: (assignment: Assignment) => void,
+  ) {
     this.#desk = desk;
     this.#mailer = mailer;
     this.#run = run;
+    this.#active = active;
+    this.#prepare = prepare;
     this.#stopListening = mailer.listen({
       stored: () => this.#count(),
-      refused: (reason) => this.#warn(refusalWords(reason)),
+      refused: (reason) => this.#refused(reason),
     });
   }
 
@@ -52,17 +76,16 @@ export class WorkSession {
     void this.#lookForWork();
   }
 
-  /** Give back what is on the screen and stop asking. What is unsaved goes on being sent. */
+  /** Give back what is held and stop asking. What is unsaved goes on being sent. */
   stop(): void {
     this.#stopped = true;
     this.#stopListening();
     this.#setAside();
   }
 
-  /** The page is going, perhaps for good: give the query back. */
+  /** The page is going, perhaps for good: give back what is held. */
   leave(): void {
     this.#setAside();
-    if (this.phase === 'task') this.phase = 'loading';
   }
 
   /** The page is back, out of the browser's memory of it. */
@@ -73,18 +96,20 @@ export class WorkSession {
   submit(answer: Answer): void {
     const held = this.#held();
     if (held === null || this.phase !== 'task') return;
-    this.#stopBeating();
+    this.#heartbeat.stop();
     this.notice = null;
     this.phase = 'sending';
-    this.#sending = this.#send({ ...held, answer, key: newKey(held.assignment), attempts: 0 });
+    const sent = this.#send({ ...held, answer, key: newKey(held.assignment), attempts: 0 });
+    this.#sending = Promise.all([this.#sending, sent]);
+    this.#showAhead();
   }
 
   async skip(reason: string): Promise<void> {
-    const held = this.#held();
-    if (held === null || this.phase !== 'task') return;
+    const skipped = this.assignment;
+    if (skipped === null || this.phase !== 'task') return;
     this.phase = 'sending';
     try {
-      await this.#desk.release(held, reason, true);
+      await this.#desk.release(heldOf(skipped), reason, true);
       this.notice = { tone: 'info', text: 'Skipped. It will not be offered to you again.' };
     } catch (error) {
       if (error instanceof Unreachable) {
@@ -93,8 +118,9 @@ export class WorkSession {
         return;
       }
     }
+    if (this.assignment !== skipped) return; // what came meanwhile is on the screen
     this.#forget();
-    void this.#lookForWork();
+    this.#goOn();
   }
 
   async undo(): Promise<void> {
@@ -107,7 +133,7 @@ export class WorkSession {
     try {
       const assignment = await this.#desk.retract(last);
       this.#sent = this.#sent.slice(0, -1);
-      this.#setAside();
+      this.#postpone();
       this.#show(assignment);
       this.notice = { tone: 'info', text: 'Taken back. Answer it again.' };
     } catch (error) {
@@ -116,13 +142,85 @@ export class WorkSession {
   }
 
   async #send(letter: Letter): Promise<void> {
-    const receipt = await this.#mailer.send(letter, wish(this.#run, NEXT_SECONDS));
+    const shownNext = this.#ahead.length > 0;
+    const next = wish(this.#run, shownNext ? 0 : NEXT_SECONDS, shownNext);
+    const receipt = await this.#mailer.send(letter, next);
     if (receipt !== null) this.#sent = [...this.#sent, letter].slice(-UNDO_DEPTH);
+    if (receipt?.next) this.#receive(receipt.next);
+    else if (this.phase === 'sending') {
+      this.#forget();
+      this.#goOn();
+    }
+  }
+
+  /** Go on to what is held, or look for something. */
+  #goOn(): void {
+    if (!this.#showAhead()) void this.#lookForWork();
+  }
+
+  /** An assignment has come: show it, keep it for later, or give it back. */
+  #receive(assignment: Assignment): void {
+    if (this.#stopped) void this.#giveBack(heldOf(assignment));
+    else if (this.phase === 'task') this.#keepAhead(assignment);
+    else this.#show(assignment);
+  }
+
+  /** Show what was leased ahead, if something was. */
+  #showAhead(): boolean {
+    const [first, ...rest] = this.#ahead;
+    if (first === undefined) return false;
+    this.#ahead = rest;
+    first.heartbeat.stop();
+    this.#show(first.assignment);
+    return true;
+  }
+
+  /** Hold an assignment until its turn comes; what belongs to the episode on the screen goes first. */
+  #keepAhead(assignment: Assignment): void {
+    const isFollowUp = followsUp(assignment, this.assignment);
+    this.#prepare(assignment);
+    this.#hold(isFollowUp ? [assignment, ...this.#waiting()] : [...this.#waiting(), assignment]);
+  }
+
+  #waiting(): Assignment[] {
+    return this.#ahead.map((one) => one.assignment);
+  }
+
+  /** Hold these, in this order, and give back those that are too many. */
+  #hold(assignments: readonly Assignment[]): void {
+    for (const one of this.#ahead) one.heartbeat.stop();
+    this.#ahead = assignments.slice(0, MOST_AHEAD).map((assignment) => ({
+      assignment,
+      heartbeat: beat(
+        assignment.lease_seconds,
+        () => this.#desk.renew(heldOf(assignment), false),
+        () => (this.#ahead = this.#ahead.filter((one) => one.assignment !== assignment)),
+      ),
+    }));
+    for (const assignment of assignments.slice(MOST_AHEAD)) void this.#giveBack(heldOf(assignment));
+  }
+
+  /** What is on the screen comes back after what is shown instead. */
+  #postpone(): void {
+    const { assignment } = this;
+    if (assignment === null || this.phase !== 'task') return;
     this.#forget();
-    const next = receipt?.next ?? null;
-    if (next === null) void this.#lookForWork();
-    else if (this.#stopped) void this.#giveBack({ assignment: next.id, token: next.token });
-    else this.#show(next);
+    this.#hold([assignment, ...this.#waiting()]);
+  }
+
+  /** Lease the next query while this one is looked at. */
+  async #lookAhead(): Promise<void> {
+    if (this.#ahead.length > 0 || this.#leasingAhead) return;
+    this.#leasingAhead = true;
+    const { signal } = (this.#lookupAhead = new AbortController());
+    try {
+      const found = await this.#desk.lease(wish(this.#run, POLL_SECONDS, true), signal);
+      if (found !== null) this.#receive(found);
+    } catch {
+      // The next query comes with the receipt.
+    } finally {
+      this.#leasingAhead = false;
+    }
   }
 
   async #lookForWork(): Promise<void> {
@@ -135,7 +233,7 @@ export class WorkSession {
         const found =
           (await this.#mailer.flush(wish(this.#run, 0))) ??
           (await this.#desk.lease(wish(this.#run, wait), signal));
-        if (found !== null) return this.#show(found);
+        if (found !== null) return this.#receive(found);
         [attempts, wait] = [0, POLL_SECONDS];
         this.phase = 'waiting';
       } catch (error) {
@@ -148,15 +246,18 @@ export class WorkSession {
   }
 
   #show(assignment: Assignment): void {
+    this.#lookup.abort();
+    this.#heartbeat.stop();
     this.assignment = assignment;
     this.phase = 'task';
     this.shown += 1;
-    const held = { assignment: assignment.id, token: assignment.token };
-    this.#stopBeating = beat(
+    const held = heldOf(assignment);
+    this.#heartbeat = beat(
       assignment.lease_seconds,
-      () => this.#desk.renew(held),
+      () => this.#desk.renew(held, this.#active()),
       () => this.#lose(),
     );
+    void this.#lookAhead();
   }
 
   /** The lease is gone: say so and go on. */
@@ -166,7 +267,13 @@ export class WorkSession {
     this.#warn(
       'The time on that query ran out, so it went back to the queue. Nothing was charged and nothing is wrong; here is what comes next.',
     );
-    void this.#lookForWork();
+    this.#goOn();
+    this.#heartbeat.now(); // what was held for later may be gone too
+  }
+
+  #refused(reason: Refused): void {
+    this.#warn(refusalWords(reason));
+    this.#heartbeat.now();
   }
 
   #turnAway(reason: Refused): void {
@@ -176,6 +283,10 @@ export class WorkSession {
 
   #setAside(): void {
     this.#lookup.abort();
+    this.#lookupAhead.abort();
+    const waiting = this.#waiting();
+    this.#hold([]);
+    for (const assignment of waiting) void this.#giveBack(heldOf(assignment));
     const held = this.#held();
     if (held === null || this.phase === 'sending') return;
     this.#forget();
@@ -191,12 +302,13 @@ export class WorkSession {
   }
 
   #forget(): void {
-    this.#stopBeating();
+    this.#heartbeat.stop();
     this.assignment = null;
+    this.phase = 'loading';
   }
 
   #held(): Held | null {
-    return this.assignment && { assignment: this.assignment.id, token: this.assignment.token };
+    return this.assignment && heldOf(this.assignment);
   }
 
   #count(): void {
@@ -217,6 +329,11 @@ export class WorkSession {
   #warn(text: string, instead?: string): void {
     this.notice = { tone: 'warning', text: instead ?? text };
   }
+}
+
+/** Is a query about the episode that is on the screen? */
+function followsUp({ query }: Assignment, shown: Assignment | null): boolean {
+  return shown !== null && query.run === shown.query.run && query.ask.episode === shown.query.ask.episode;
 }
 
 const UNDO_REFUSED: Readonly<Record<string, string>> = {

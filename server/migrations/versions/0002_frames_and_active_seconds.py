@@ -1,0 +1,52 @@
+"""Frames, and active seconds beside the raw ones."""
+
+import sqlalchemy as sa
+from alembic import op
+
+revision = "0002"
+down_revision = "0001"
+
+ROW_ID = sa.BigInteger().with_variant(sa.Integer(), "sqlite")
+IDLE_SECONDS = 30.0  # the cap of this migration's day
+
+
+def upgrade() -> None:
+    """Make room for both; earlier answers, which came without signs of activity, count up to the cap."""
+    op.create_table(
+        "activity",
+        sa.Column("user_id", ROW_ID, nullable=False),
+        sa.Column("active_seconds", sa.Float(), nullable=False),
+        sa.Column("signalled_at", sa.Float(), nullable=False),
+        sa.CheckConstraint("active_seconds >= 0", name="ck_activity_not_negative"),
+        sa.ForeignKeyConstraint(["user_id"], ["users.id"], name="fk_activity_user_id"),
+        sa.PrimaryKeyConstraint("user_id", name="pk_activity"),
+    )
+    op.create_table(
+        "frames",
+        sa.Column("hash", sa.Text(), nullable=False),
+        sa.Column("png", sa.LargeBinary(), nullable=False),
+        sa.Column("created_at", sa.Float(), nullable=False),
+        sa.PrimaryKeyConstraint("hash", name="pk_frames"),
+    )
+    for table in ("answers", "ledger"):
+        op.add_column(table, sa.Column("active_seconds", sa.Float(), nullable=False, server_default="0"))
+        _fill(table)
+
+
+def _fill(table: str) -> None:
+    """Both tables are append-only, held by a trigger that rests here."""
+    fill = (
+        f"UPDATE {table} SET active_seconds = CASE WHEN seconds > {IDLE_SECONDS} THEN {IDLE_SECONDS} "  # noqa: S608
+        f"WHEN seconds < -{IDLE_SECONDS} THEN -{IDLE_SECONDS} ELSE seconds END"
+    )
+    if op.get_bind().dialect.name == "postgresql":
+        op.execute(f"ALTER TABLE {table} DISABLE TRIGGER {table}_append_only")
+        op.execute(fill)
+        op.execute(f"ALTER TABLE {table} ENABLE TRIGGER {table}_append_only")
+    else:
+        op.execute(f"DROP TRIGGER {table}_no_update")
+        op.execute(fill)
+        op.execute(
+            f"CREATE TRIGGER {table}_no_update BEFORE UPDATE ON {table} "
+            f"BEGIN SELECT RAISE(ABORT, '{table} is append-only'); END"
+        )

@@ -1,0 +1,75 @@
+// @vitest-environment happy-dom
+import { beforeEach, describe, expect, it } from 'vitest';
+import { ANSWERABLE, type Vocabulary } from '../api/types';
+import { bindingsFor, collisions, type Binding } from './registry';
+import { loadKeymap, refusal, remapped, saveKeymap, type Keymap } from './remap';
+
+const maze: Vocabulary = {
+  domain: 'maze',
+  renderer: 'maze',
+  subgoals: ['north', 'south', 'west', 'east', 'go_to_target'],
+  actions: ['up', 'down', 'left', 'right'],
+};
+const inspect = bindingsFor('inspect_full', maze);
+const of = (bindings: readonly Binding[], command: string): Binding => {
+  const found = bindings.find((binding) => binding.command === command);
+  if (!found) throw new Error(command);
+  return found;
+};
+const refused = (command: string, key: string, keymap: Keymap = {}): string | null =>
+  refusal(of(inspect, command), key, keymap, maze);
+
+describe('a key of one’s own', () => {
+  it('goes in the place of those that came with the page', () => {
+    const bindings = remapped(inspect, { pass: 'j' });
+    expect(of(bindings, 'pass').keys).toEqual(['j']);
+    expect(of(bindings, 'fail').keys).toEqual(['f']);
+  });
+
+  it('belongs to a subgoal or an action by its name, wherever it stands in the vocabulary', () => {
+    const keymap = { 'choose go to target': 'g' };
+    const other = { ...maze, subgoals: ['go_to_target', 'north'] };
+    expect(of(remapped(bindingsFor('label_hi', maze), keymap), 'choose:4').keys).toEqual(['g']);
+    expect(of(remapped(bindingsFor('label_hi', other), keymap), 'choose:0').keys).toEqual(['g']);
+  });
+
+  it('is refused where another one has it, in any mode the binding works in', () => {
+    expect(refused('pass', 'f')).toContain('F already means “Fail”');
+    expect(refused('pass', 'x')).toBeNull(); // First wrong is of labels alone
+    expect(refused('skip', 'x')).toContain('First wrong step');
+    expect(refused('skip', 'w')).toContain('west');
+    expect(refused('undo', 'j', { pass: 'j' })).toContain('Pass');
+  });
+
+  it('may be what it was before, or what another has given up', () => {
+    expect(refused('pass', 'p', { pass: 'j' })).toBeNull();
+    expect(refused('fail', 'p', { pass: 'j' })).toBeNull();
+  });
+
+  it('is none of those that the browser needs', () => {
+    for (const key of ['Tab', 'Escape', 'Shift']) expect(refused('pass', key)).toContain('cannot be chosen');
+  });
+
+  it('never does two things, even where a vocabulary has the same letter', () => {
+    const keymap = { skip: 'w', pass: 'j' };
+    for (const mode of [...ANSWERABLE, 'waiting'] as const) {
+      expect(collisions(remapped(bindingsFor(mode, maze), keymap))).toEqual([]);
+    }
+    expect(of(remapped(bindingsFor('label_hi', maze), keymap), 'choose:2').keys).toEqual(['3']);
+  });
+});
+
+describe('the keymap', () => {
+  beforeEach(() => localStorage.clear());
+
+  it('is kept by the browser, whatever else is in its place', () => {
+    saveKeymap(localStorage, { pass: 'j' });
+    expect(loadKeymap(localStorage)).toEqual({ pass: 'j' });
+    saveKeymap(localStorage, {});
+    expect(localStorage).toHaveLength(0);
+    for (const broken of ['{', '7', 'null', '{"pass": 3}']) {
+      localStorage.setItem('waypost:keys', broken);
+      expect(loadKeymap(localStorage)).toEqual({});
+    }
+  });
+});

@@ -1,0 +1,193 @@
+// @vitest-environment happy-dom
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { Refused, Unreachable } from '../api/client';
+import type { Assignment, Lease, Receipt } from '../api/types';
+import type { Desk, Held, SendAnswer } from './desk';
+import { Mailer } from './mailer';
+import { WorkSession } from './session.svelte';
+
+const receipt = (next: Assignment | null): Receipt => ({
+  query: 1,
+  answer: 1,
+  units: 1,
+  seconds: 2,
+  active_seconds: 2,
+  next,
+});
+const LATE = new Refused(409, { type: '/problems/lease-expired', detail: 'Too late.' });
+const PASS = { kind: 'inspect_full', verdict: 'pass' } as const;
+
+function assignment(id: number, episode = id): Assignment {
+  const query = { id, run: 'r', ask: { kind: 'inspect_full', episode } };
+  return { id, token: `t${id}`, lease_seconds: 60, query } as unknown as Assignment;
+}
+
+/** A server's side that leases what it is given, in order. */
+class FakeDesk implements Desk {
+  offered: Assignment[] = [];
+  later: Assignment[] = []; // leased ahead only
+  readonly released: number[] = [];
+  readonly renew = vi.fn<Desk['renew']>(() => Promise.resolve());
+  readonly retract = vi.fn<Desk['retract']>();
+
+  lease(wish: Lease): Promise<Assignment | null> {
+    const found = (wish.ahead ? this.later : this.offered).shift();
+    if (found !== undefined) return Promise.resolve(found);
+    return wish.wait === 0 ? Promise.resolve(null) : new Promise(() => undefined);
+  }
+
+  release(held: Held): Promise<unknown> {
+    this.released.push(held.assignment);
+    return Promise.resolve();
+  }
+
+  me(): Promise<never> {
+    return Promise.reject(new Unreachable());
+  }
+}
+
+describe('a session', () => {
+  const answer = vi.fn<SendAnswer>();
+  const prepare = vi.fn();
+  let active = false;
+  let desk: FakeDesk;
+  let session: WorkSession;
+  const shown = (): number | undefined => session.assignment?.id;
+  const settled = (): Promise<unknown> => vi.advanceTimersByTimeAsync(0);
+
+  async function started(offered: Assignment[], later: Assignment[] = []): Promise<void> {
+    [desk.offered, desk.later] = [offered, later];
+    session.start();
+    await settled();
+  }
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    vi.resetAllMocks();
+    sessionStorage.clear();
+    active = false;
+    desk = new FakeDesk();
+    desk.renew.mockImplementation(() => Promise.resolve());
+    const mailer = new Mailer(answer, sessionStorage, () => undefined);
+    session = new WorkSession(desk, mailer, null, () => active, prepare);
+  });
+  afterEach(() => {
+    session.stop();
+    vi.useRealTimers();
+  });
+
+  it('shows what it leased ahead before the answer has arrived', async () => {
+    answer.mockReturnValue(new Promise(() => undefined));
+    await started([assignment(1)], [assignment(2)]);
+    expect(prepare).toHaveBeenCalledWith(expect.objectContaining({ id: 2 }));
+    session.submit(PASS);
+    expect([shown(), session.phase]).toEqual([2, 'task']);
+    expect(answer.mock.calls[0]?.[1]).toMatchObject({ wait: 0, ahead: true });
+  });
+
+  it('without one, shows what comes with the receipt', async () => {
+    answer.mockResolvedValue(receipt(assignment(2)));
+    await started([assignment(1)]);
+    session.submit(PASS);
+    expect(session.phase).toBe('sending');
+    await settled();
+    expect(shown()).toBe(2);
+    expect(answer.mock.calls[0]?.[1]).toMatchObject({ wait: 0.25, ahead: false });
+  });
+
+  it('goes on with the episode on the screen before others that were leased earlier', async () => {
+    answer.mockResolvedValueOnce(receipt(assignment(3, 1))).mockResolvedValue(receipt(null));
+    await started([assignment(1, 1)], [assignment(2, 1), assignment(4, 9)]);
+    session.submit(PASS);
+    await settled();
+    session.submit(PASS);
+    expect(shown()).toBe(3);
+    session.submit(PASS);
+    expect(shown()).toBe(4);
+  });
+
+  it('holds two ahead at most, and gives the third back', async () => {
+    answer.mockResolvedValue(receipt(assignment(3)));
+    desk.retract.mockResolvedValue(assignment(1));
+    await started([assignment(1)], [assignment(2)]);
+    session.submit(PASS);
+    await settled(); // 2 on the screen, 3 ahead
+    await session.undo();
+    expect(shown()).toBe(1);
+    expect(desk.released).toEqual([]);
+    answer.mockResolvedValue(receipt(assignment(4)));
+    session.submit(PASS);
+    await settled(); // 2 on the screen, 3 and 4 ahead
+    await session.undo();
+    expect(desk.released).toEqual([4]);
+    session.submit(PASS);
+    expect(shown()).toBe(2);
+  });
+
+  it('gives back all that it holds when the page goes', async () => {
+    await started([assignment(1)], [assignment(2)]);
+    session.leave();
+    expect(desk.released.toSorted()).toEqual([1, 2]);
+    expect(shown()).toBeUndefined();
+  });
+
+  it('gives back what comes after it was stopped', async () => {
+    let arrive: (found: Assignment) => void = () => undefined;
+    await started([assignment(1)]);
+    answer.mockReturnValue(new Promise((resolve) => (arrive = (next) => resolve(receipt(next)))));
+    session.submit(PASS);
+    session.stop();
+    arrive(assignment(2));
+    await settled();
+    expect(desk.released).toContain(2);
+  });
+
+  it('keeps what is ahead alive, and says of the one on the screen alone that somebody is at it', async () => {
+    await started([assignment(1)], [assignment(2)]);
+    active = true;
+    await vi.advanceTimersByTimeAsync(20_000);
+    const beats = desk.renew.mock.calls.map(([held, isActive]) => [held.assignment, isActive]);
+    expect(beats.toSorted()).toEqual([
+      [1, true],
+      [2, false],
+    ]);
+  });
+
+  it('after a sleep past its leases shows none of them again', async () => {
+    await started([assignment(1)], [assignment(2)]);
+    desk.renew.mockRejectedValue(LATE);
+    desk.offered = [assignment(7)];
+    await vi.advanceTimersByTimeAsync(20_000);
+    expect(shown()).toBe(7);
+    expect(session.notice?.text).toContain('went back to the queue');
+  });
+
+  it('after an answer that came too late looks whether the next is still its own', async () => {
+    await started([assignment(1)], [assignment(2)]);
+    answer.mockRejectedValue(LATE);
+    desk.renew.mockRejectedValue(LATE);
+    desk.offered = [assignment(7)];
+    session.submit(PASS);
+    await settled();
+    expect(shown()).toBe(7);
+  });
+
+  it('skips to what is ahead, or to what came while it skipped', async () => {
+    await started([assignment(1)], [assignment(2)]);
+    await session.skip('dark');
+    expect([shown(), desk.released]).toEqual([2, [1]]);
+    expect(session.notice?.text).toContain('Skipped');
+  });
+
+  it('goes on while the server is away, with what it has', async () => {
+    await started([assignment(1)], [assignment(2)]);
+    answer.mockRejectedValue(new Unreachable());
+    session.submit(PASS);
+    await settled();
+    expect(shown()).toBe(2);
+    desk.lease = () => Promise.reject(new Unreachable());
+    session.submit(PASS);
+    await settled();
+    expect(session.phase).toBe('offline');
+  });
+});
