@@ -45,7 +45,7 @@ def add(tx: Tx, run: str, wanted: wire.GoldPost) -> wire.GoldList:
     words = kinds.Words.of(wire.Vocabulary.model_validate_json(row.vocabulary))
     items = [_answered(tx, run, query) for query in wanted.answered]
     for place, one in enumerate(wanted.known):
-        at = ["body", "known", place]
+        at: list[str | int] = ["body", "known", place]
         kinds.check_ask(one.ask, words, [*at, "ask"])
         marking.check(one.ask, one.known, words, [*at, "known"])
         items.append(Item(one.ask, one.known))

@@ -1,6 +1,7 @@
 """Annotators' own numbers: how much, how fast, and how far right where it is known what is. Counted in SQL."""
 
 from collections import defaultdict
+from collections.abc import Sequence
 from typing import Any
 
 from sqlalchemy import Row, Select, and_, case, func, select
@@ -16,12 +17,12 @@ WEEK_DAYS = 7
 
 def _by_kind(midnight: float) -> Select[Any]:
     """Return a row per annotator and kind; `midnight` began the day."""
-    mine = {"partition_by": (answers.c.user_id, queries.c.kind)}
+    mine = (answers.c.user_id, queries.c.kind)
     given = (
         select(answers.c.user_id, queries.c.kind, answers.c.units, answers.c.seconds, answers.c.created_at)
         .add_columns(probes.c.n_labels, probes.c.n_right)
-        .add_columns(func.row_number().over(order_by=answers.c.seconds, **mine).label("rank"))
-        .add_columns(func.count().over(**mine).label("n"))
+        .add_columns(func.row_number().over(order_by=answers.c.seconds, partition_by=mine).label("rank"))
+        .add_columns(func.count().over(partition_by=mine).label("n"))
         .join(queries, queries.c.answer_id == answers.c.id)
         .outerjoin(probes, probes.c.query_id == queries.c.id)
         .subquery()
@@ -68,7 +69,7 @@ def _midnight(tx: Tx) -> float:
     return tx.now - tx.now % DAY
 
 
-def _numbers(user: int, name: str, rows: list[Row[Any]]) -> wire.Numbers:
+def _numbers(user: int, name: str, rows: Sequence[Row[Any]]) -> wire.Numbers:
     return wire.Numbers(
         user=user,
         name=name,
@@ -91,11 +92,11 @@ def _numbers(user: int, name: str, rows: list[Row[Any]]) -> wire.Numbers:
     )
 
 
-def _tally(rows: list[Row[Any]], n: str, units: str) -> wire.Tally:
+def _tally(rows: Sequence[Row[Any]], n: str, units: str) -> wire.Tally:
     micro = sum(int(row._mapping[units]) for row in rows)
     return wire.Tally(answers=sum(row._mapping[n] for row in rows), units=to_units(micro))
 
 
-def _agreement(rows: list[Row[Any]]) -> float | None:
+def _agreement(rows: Sequence[Row[Any]]) -> float | None:
     n_labels = sum(int(row.n_labels) for row in rows)
     return sum(int(row.n_right) for row in rows) / n_labels if n_labels else None

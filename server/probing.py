@@ -97,7 +97,7 @@ def _next_place(tx: Tx, user: int, run: str) -> Place:
     return Place(user, run, tx.conn.execute(moved).scalar_one() - 1)
 
 
-def _choose(tx: Tx, taker: Taker, run: str) -> Row[Any] | None:
+def _choose(tx: Tx, taker: Taker, run: str) -> Row[*tuple[Any, ...]] | None:
     """Return the gold query this annotator has answered least often, if there is any for them."""
     skipped = exists().where(
         probes.c.user_id == bindparam("user"),
@@ -124,7 +124,7 @@ def _reopened(tx: Tx, user: int, item: int) -> int | None:
     return tx.conn.execute(_PROBE.where(*open_now).correlate(None), {"user": user}).scalar()
 
 
-def _put(tx: Tx, user: int, chosen: Row[Any], due: Row[Any]) -> int:
+def _put(tx: Tx, user: int, chosen: Row[*tuple[Any, ...]], due: Row[Any]) -> int:
     """Make a query of a gold one, in the run's shadow, dressed as one of the episode that is being asked about."""
     dressed = queries.ASK.validate_json(chosen.ask).model_copy(update={"episode": due.episode, "ordinal": due.ordinal})
     text = canonical.text(dressed.model_dump(mode="json"))
