@@ -172,6 +172,23 @@ def demo(
         run_demo(port, database, episodes, instances)
 
 
+@app.command()
+def practice(
+    file: Annotated[Path, typer.Argument(help="Where to write them.")],
+    domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
+    instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "corners",
+    seed: Annotated[int, typer.Option(min=0, help="Fixes them.")] = 0,
+) -> None:
+    """Write practice queries for people, marked by the domain's oracle; `WAYPOST_PRACTICE` serves them."""
+    with learner_errors():
+        from learner.domains.base import find_domain
+        from learner.practice import practice as made
+
+        found = made(find_domain(domain), instances, seed)
+    file.write_text(found, encoding="utf-8")
+    typer.echo(f"Practice queries are in {file}.")
+
+
 def main() -> None:
     """Run `waypost`."""
     app()

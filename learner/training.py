@@ -23,7 +23,7 @@ from learner.learner import Learner
 from learner.presets import find_preset
 from learner.tracking import Tracker
 from learner.translation import vocabulary
-from server import people, wire
+from server import accounts, people, wire
 from server.app import create_app
 from server.settings import Settings
 
@@ -61,7 +61,7 @@ def embedded(store: Path) -> Iterator[Connection]:
         def connect(name: str, role: wire.Role) -> Client:
             user = db.write_now(lambda tx: people.ensure_user(tx, name, role))
             token = db.write_now(lambda tx: people.create_token(tx, user.id, "embedded"))
-            stack.callback(db.write_now, lambda tx: people.revoke_token(tx, token.id))
+            stack.callback(db.write_now, lambda tx: accounts.revoke_token(tx, token.id))
             client = Client("http://localhost", token.token, transport)
             stack.callback(client.close)
             return client

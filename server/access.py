@@ -9,6 +9,7 @@ from fastapi.security import APIKeyCookie, HTTPBearer
 
 from server import errors
 from server.context import Context, Ctx
+from server.people import ANSWERING
 from server.wire import Role
 
 COOKIE = "waypost_session"
@@ -18,7 +19,7 @@ _cookie = APIKeyCookie(name=COOKIE, auto_error=False, scheme_name="session", des
 
 ANYONE: frozenset[Role] = frozenset({"admin", "learner", "annotator", "viewer"})
 LEARNERS: frozenset[Role] = frozenset({"admin", "learner"})
-ANNOTATORS: frozenset[Role] = frozenset({"admin", "annotator"})
+ANNOTATORS: frozenset[Role] = ANSWERING
 ADMINS: frozenset[Role] = frozenset({"admin"})
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from sqlalchemy import Row, bindparam, insert, select, update
 
-from server import activity, canonical, errors, events, kinds, money, queries, queue, runs, wire
+from server import activity, canonical, errors, events, kinds, money, probing, queries, queue, runs, wire
 from server.database import Tx
 from server.money import Cost, Entry, to_units
 from server.settings import Settings
@@ -125,17 +125,20 @@ def _accept(tx: Tx, post: Post, case: Case, wish: queue.Wish | None) -> wire.Rec
     """Store, charge and close."""
     cost = kinds.cost(post.answer, wire.Prices.model_validate_json(case.run.prices))
     stored = _store(tx, post, case, case.query.revision, cost)
-    entry = Entry(
-        case.run.id,
-        case.query.id,
-        stored.id,
-        case.query.kind,
-        case.query.episode,
-        cost,
-        stored.seconds,
-        stored.active_seconds,
-    )
-    money.charge(tx, entry, case.query.reserve)
+    if case.run.gold_of is not None:
+        probing.score(tx, case.query.id, post.answer)
+    else:
+        entry = Entry(
+            case.run.id,
+            case.query.id,
+            stored.id,
+            case.query.kind,
+            case.query.episode,
+            cost,
+            stored.seconds,
+            stored.active_seconds,
+        )
+        money.charge(tx, entry, case.query.reserve)
     tx.conn.execute(_END, {"assignment": case.held.id, "now": tx.now})
     tx.conn.execute(_CLOSE, {"query": case.query.id, "answer": stored.id})
     data = {
@@ -194,19 +197,26 @@ def retract(tx: Tx, assignment: int, user: int, token: str, settings: Settings) 
         raise errors.AnswerUsed("The learner has trained on this answer; it can be taken back no more.")
     if run.state == "finished":
         raise errors.RunFinished("The run is finished; its answers stay.")
-    charged = tx.conn.execute(select(ledger).where(ledger.c.answer_id == given.id, ledger.c.entry == "charge")).one()
-    cost = Cost(charged.units, charged.lo_units)
-    entry = Entry(run.id, query.id, given.id, query.kind, query.episode, cost, charged.seconds, charged.active_seconds)
-    money.refund(tx, entry, runs.account(run), query.reserve)
+    if run.gold_of is not None:
+        probing.unscore(tx, query.id)
+    else:
+        _refund(tx, run, query, given)
     tx.conn.execute(
         update(query_table)
         .where(query_table.c.id == query.id)
         .values(state="leased", answer_id=None, revision=query.revision + 1)
     )
-    events.add(tx, run.id, "retracted", {"query": query.id, "answer": given.id, "units": to_units(cost.units)})
+    events.add(tx, run.id, "retracted", {"query": query.id, "answer": given.id, "units": to_units(given.units)})
     tx.wake(queries.topic(query.id))
     again = queue.grant(tx, query.id, user, settings.lease_seconds, deferring=False)
     return queue.view(tx, again)
+
+
+def _refund(tx: Tx, run: Row[Any], query: Row[Any], given: Row[Any]) -> None:
+    charged = tx.conn.execute(select(ledger).where(ledger.c.answer_id == given.id, ledger.c.entry == "charge")).one()
+    cost = Cost(charged.units, charged.lo_units)
+    entry = Entry(run.id, query.id, given.id, query.kind, query.episode, cost, charged.seconds, charged.active_seconds)
+    money.refund(tx, entry, runs.account(run), query.reserve)
 
 
 def _retracted_before(tx: Tx, query: int, user: int) -> wire.Assignment:

@@ -3,6 +3,7 @@
 import time
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 
 from server import errors, people
 from server.database import Database
@@ -30,6 +31,9 @@ class Credentials:
         if fresh is None:
             self._known.pop(key, None)
             return None
+        if fresh.is_noteworthy:
+            with suppress(errors.StorageFailed):  # the request may still be served
+                await self._db.write(lambda tx: people.note_use(tx, fresh.credential))
         if len(self._known) >= CACHE_SIZE:
             self._known.clear()
         self._known[key] = (self._clock() + CACHE_SECONDS, fresh)

@@ -65,7 +65,8 @@ class Offer:
 _LAST_ANSWERED = (
     select(queries.c.run_id, queries.c.episode)
     .join(answers, answers.c.query_id == queries.c.id)
-    .where(answers.c.user_id == bindparam("user"))
+    .join(runs, runs.c.id == queries.c.run_id)
+    .where(answers.c.user_id == bindparam("user"), runs.c.gold_of.is_(None))
     .order_by(answers.c.id.desc())
     .limit(1)
 )

@@ -4,14 +4,16 @@ import json
 import socket
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
+from datetime import UTC, datetime
 from typing import Annotated, NoReturn, get_args
 
 import typer
 from pydantic import ValidationError
 
-from server import errors, page, people, serving, wire
+from server import accounts, errors, page, people, serving, wire
 from server.app import create_app
 from server.database import BadDatabase, Database
+from server.practice import BadPractice
 from server.schema import NewerStore
 from server.settings import Settings
 
@@ -50,6 +52,12 @@ def opened(url: str) -> Iterator[Database]:
         db.close()
 
 
+def administrator_url(db: Database, base: str, seconds: float) -> str:
+    """Return a one-time link that logs an administrator in; the user `admin` is created if there is none."""
+    name = db.write_now(people.an_administrator).name
+    return login_url(db, base, name, "admin", seconds)
+
+
 def login_url(db: Database, base: str, name: str, role: wire.Role, seconds: float) -> str:
     """Return a one-time link that logs the user of a name in; the user is created if there is none."""
     user = db.write_now(lambda tx: people.ensure_user(tx, name, role))
@@ -72,7 +80,7 @@ def _serve(settings: Settings, host: str, bound: socket.socket) -> None:
     chosen = settings.model_copy(update={"hosts": (*settings.hosts, *named)})
     db = Database(chosen.database)
     try:
-        link = login_url(db, serving.url_of(bound), "admin", "admin", chosen.link_seconds)
+        link = administrator_url(db, serving.url_of(bound), chosen.link_seconds)
     finally:
         db.close()
     typer.echo(f"Waypost serves {db.url.render_as_string()} at {serving.url_of(bound)}")
@@ -97,8 +105,13 @@ def serve(
     except ValidationError as error:
         first = error.errors()[0]
         refuse(f"The setting {'.'.join(map(str, first['loc']))} is not valid: {first['msg']}.")
-    except (serving.CannotServe, BadDatabase, NewerStore) as error:
+    except (serving.CannotServe, BadDatabase, NewerStore, BadPractice) as error:
         refuse(str(error))
+
+
+def _check_role(role: str) -> None:
+    if role not in get_args(wire.Role):
+        refuse(f"{role!r} is no role; choose one of {', '.join(get_args(wire.Role))}.")
 
 
 @user_app.command("add")
@@ -109,8 +122,7 @@ def add_user(
     as_json: JsonOption = False,
 ) -> None:
     """Create a user."""
-    if role not in get_args(wire.Role):
-        refuse(f"{role!r} is no role; choose one of {', '.join(get_args(wire.Role))}.")
+    _check_role(role)
     try:
         wanted = wire.UserCreate.model_validate({"name": name, "role": role})
     except ValidationError as error:
@@ -129,7 +141,33 @@ def list_users(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption 
         typer.echo(found.model_dump_json())
         return
     for user in found.users:
-        typer.echo(f"{user.id:>6}  {user.role:<10} {user.name}")
+        away = "" if user.deactivated_at is None else "  (deactivated)"
+        typer.echo(f"{user.id:>6}  {user.role:<10} {user.name}{away}")
+
+
+@user_app.command("role")
+def set_role(name: str, role: str, database: DatabaseOption = DEFAULT_DATABASE) -> None:
+    """Give a user another role."""
+    _check_role(role)
+    _change(database, name, wire.UserPatch.model_validate({"role": role}))
+
+
+@user_app.command("deactivate")
+def deactivate_user(name: str, database: DatabaseOption = DEFAULT_DATABASE) -> None:
+    """Sign a user out for good: sessions, tokens and links end, leases go back; their answers stay."""
+    _change(database, name, wire.UserPatch(active=False))
+
+
+@user_app.command("reactivate")
+def reactivate_user(name: str, database: DatabaseOption = DEFAULT_DATABASE) -> None:
+    """Let a user in again; they need a new link or token."""
+    _change(database, name, wire.UserPatch(active=True))
+
+
+def _change(database: str, name: str, wanted: wire.UserPatch) -> None:
+    with opened(database) as db:
+        user = db.read_now(lambda tx: people.named(tx, name))
+        db.write_now(lambda tx: accounts.change(tx, user.id, wanted))
 
 
 @token_app.command("create")
@@ -146,24 +184,43 @@ def create_token(
     typer.echo(token.model_dump_json() if as_json else token.token)
 
 
+@token_app.command("list")
+def list_tokens(user: str, database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
+    """List the API tokens of the user of a name, without their secrets."""
+    with opened(database) as db:
+        owner = db.read_now(lambda tx: people.named(tx, user))
+        found = db.read_now(lambda tx: accounts.tokens(tx, owner.id))
+    if as_json:
+        typer.echo(found.model_dump_json())
+        return
+    for token in found.tokens:
+        typer.echo(f"{token.id:>6}  made {_day(token.created_at)}  last used {_day(token.last_used_at)}  {token.label}")
+
+
+def _day(seconds: float | None) -> str:
+    return "never     " if seconds is None else f"{datetime.fromtimestamp(seconds, UTC):%Y-%m-%d}"
+
+
 @token_app.command("revoke")
 def revoke_token(token: int, database: DatabaseOption = DEFAULT_DATABASE) -> None:
     """Revoke an API token by its number."""
     with opened(database) as db:
-        db.write_now(lambda tx: people.revoke_token(tx, token))
+        db.write_now(lambda tx: accounts.revoke_token(tx, token))
 
 
 @app.command("login-link")
 def login_link(
     user: str,
     base: Annotated[str, typer.Option(help="The server's address.")] = "http://127.0.0.1:8000",
+    hours: Annotated[float | None, typer.Option(min=0.1, max=168, help="How long it is good.")] = None,
     database: DatabaseOption = DEFAULT_DATABASE,
     as_json: JsonOption = False,
 ) -> None:
     """Print a one-time link that logs the user of a name in."""
     with opened(database) as db:
         owner = db.read_now(lambda tx: people.named(tx, user))
-        url = login_url(db, base, owner.name, owner.role, Settings().link_seconds)
+        seconds = Settings().link_seconds if hours is None else hours * 3_600
+        url = login_url(db, base, owner.name, owner.role, seconds)
     typer.echo(json.dumps({"url": url}) if as_json else url)
 
 

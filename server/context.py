@@ -9,6 +9,7 @@ from fastapi import Depends, Request
 from server.auth import Attempts, Credentials
 from server.database import Database
 from server.live import Hub
+from server.practice import PracticeSet
 from server.settings import Settings
 
 try:
@@ -26,6 +27,7 @@ class Context:
     hub: Hub
     credentials: Credentials
     attempts: Attempts
+    practice: PracticeSet
 
 
 async def context_of(request: Request) -> Context:

@@ -2,6 +2,9 @@
 
 Refusal
 ├── Unauthenticated        401  no valid token or session
+│   ├── LoginUsed               the login link was used before
+│   ├── LoginExpired            the login link is too old
+│   └── Deactivated             the account is deactivated
 ├── BudgetExhausted        402  the query's reserve does not fit the run's budget
 ├── Forbidden              403  the role may not do this
 │   ├── NotYours           403  another annotator's assignment
@@ -20,7 +23,9 @@ Refusal
 │   ├── NotAnswered             there is no answer to use
 │   ├── RunFinished             a finished run asks nothing more
 │   ├── BudgetTooLow            a budget below what is spent and reserved
-│   └── NameTaken               a user of that name exists
+│   ├── NameTaken               a user of that name exists
+│   ├── NotActive               a deactivated user gets no links and no tokens
+│   └── LastAdministrator       nobody would be left to let others in
 ├── BodyTooLarge           413
 ├── NotJson                415
 ├── Misdirected            421  a Host this server does not answer to
@@ -54,6 +59,24 @@ class Unauthenticated(Refusal):
     """No valid token or session came with the request."""
 
     status, name, title = 401, "unauthenticated", "Log in first"
+
+
+class LoginUsed(Unauthenticated):
+    """The login link was used before; each works once."""
+
+    name, title = "login-used", "The login link was used before"
+
+
+class LoginExpired(Unauthenticated):
+    """The login link is too old."""
+
+    name, title = "login-expired", "The login link is too old"
+
+
+class Deactivated(Unauthenticated):
+    """The account of the login link is deactivated."""
+
+    name, title = "deactivated", "The account is deactivated"
 
 
 class BudgetExhausted(Refusal):
@@ -168,6 +191,18 @@ class NameTaken(Conflict):
     """A user of that name exists."""
 
     name, title = "name-taken", "The name is taken"
+
+
+class NotActive(Conflict):
+    """The user is deactivated, so no link and no token is made for them."""
+
+    name, title = "not-active", "The user is deactivated"
+
+
+class LastAdministrator(Conflict):
+    """Without this administrator nobody could let others in."""
+
+    name, title = "last-administrator", "The last administrator stays"
 
 
 class BodyTooLarge(Refusal):

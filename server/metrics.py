@@ -17,9 +17,11 @@ def probe(tx: Tx) -> None:
 def text(tx: Tx) -> str:
     """Return every metric."""
     lines: list[str] = []
-    by_state = tx.conn.execute(select(queries.c.state, func.count()).group_by(queries.c.state)).all()
+    asked = select(queries.c.state, func.count()).join(runs, runs.c.id == queries.c.run_id)
+    by_state = tx.conn.execute(asked.where(runs.c.gold_of.is_(None)).group_by(queries.c.state)).all()
     lines += _metric("waypost_queries", "gauge", "Queries by state.", ((f'state="{s}"', n) for s, n in by_state))
-    by_run = tx.conn.execute(select(runs.c.state, func.count()).group_by(runs.c.state)).all()
+    kept_runs = select(runs.c.state, func.count()).where(runs.c.gold_of.is_(None))
+    by_run = tx.conn.execute(kept_runs.group_by(runs.c.state)).all()
     lines += _metric("waypost_runs", "gauge", "Runs by state.", ((f'state="{s}"', n) for s, n in by_run))
     ended = tx.conn.execute(select(assignments.c.state, func.count()).group_by(assignments.c.state)).all()
     lines += _metric("waypost_assignments", "gauge", "Assignments by state.", ((f'state="{s}"', n) for s, n in ended))

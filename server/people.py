@@ -6,7 +6,7 @@ import statistics
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from sqlalchemy import Row, bindparam, func, insert, select, update
+from sqlalchemy import Row, Select, bindparam, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from server import errors, wire
@@ -16,7 +16,9 @@ from server.tables import answers, credentials, queries, users
 
 CredentialKind = Literal["api", "session", "login"]
 
+ANSWERING: frozenset[wire.Role] = frozenset({"admin", "annotator"})
 DAY = 86_400.0
+NOTED_SECONDS = 60.0  # how precisely it is known when a credential was last used
 RECENT = 1_000  # answers the median is taken over
 
 
@@ -28,6 +30,7 @@ class Found:
     name: str
     role: wire.Role
     credential: int
+    is_noteworthy: bool  # when it was last used is to be noted anew
 
 
 @dataclass(frozen=True)
@@ -45,8 +48,26 @@ def hashed(secret: str) -> str:
     return hashlib.sha256(secret.encode("utf-8", "surrogateescape")).hexdigest()
 
 
+USERS: Select[Any] = select(
+    users,
+    select(func.max(credentials.c.last_used_at))
+    .where(credentials.c.user_id == users.c.id)
+    .correlate(users)
+    .scalar_subquery()
+    .label("last_used_at"),
+)
+
+
 def _of_row(row: Row[Any]) -> wire.User:
-    return wire.User(id=row.id, name=row.name, role=row.role, created_at=row.created_at)
+    seen = row._mapping.get("last_used_at")
+    return wire.User(
+        id=row.id,
+        name=row.name,
+        role=row.role,
+        created_at=row.created_at,
+        deactivated_at=row.deactivated_at,
+        last_used_at=seen,
+    )
 
 
 def create_user(tx: Tx, name: str, role: wire.Role) -> wire.User:
@@ -65,6 +86,16 @@ def ensure_user(tx: Tx, name: str, role: wire.Role) -> wire.User:
     return create_user(tx, name, role) if row is None else _of_row(row)
 
 
+def an_administrator(tx: Tx) -> wire.User:
+    """Return the user `admin` if they are one, else the first administrator there is; created if there is none."""
+    rows = tx.conn.execute(
+        select(users).where(users.c.role == "admin", users.c.deactivated_at.is_(None)).order_by(users.c.id)
+    ).all()
+    if not rows:
+        return ensure_user(tx, "admin", "admin")
+    return _of_row(next((row for row in rows if row.name == "admin"), rows[0]))
+
+
 def named(tx: Tx, name: str) -> wire.User:
     """Return the user of a name.
 
@@ -77,15 +108,28 @@ def named(tx: Tx, name: str) -> wire.User:
     return _of_row(row)
 
 
+def view(tx: Tx, user: int) -> wire.User:
+    """Return a user.
+
+    Raises:
+        NotFound: if there is none.
+    """
+    row = tx.conn.execute(USERS.where(users.c.id == user)).one_or_none()
+    if row is None:
+        raise errors.NotFound(f"There is no user {user}.")
+    return _of_row(row)
+
+
 def everyone(tx: Tx) -> wire.UserList:
     """List all users."""
-    rows = tx.conn.execute(select(users).order_by(users.c.id)).all()
+    rows = tx.conn.execute(USERS.order_by(users.c.id)).all()
     return wire.UserList(users=[_of_row(row) for row in rows])
 
 
 def _issue(tx: Tx, user: int, kind: CredentialKind, label: str, seconds: float | None) -> Secret:
-    if tx.conn.execute(select(users.c.id).where(users.c.id == user)).one_or_none() is None:
-        raise errors.NotFound(f"There is no user {user}.")
+    owner = view(tx, user)
+    if owner.deactivated_at is not None:
+        raise errors.NotActive(f"{owner.name} is deactivated; reactivate them first.")
     secret = f"wp_{secrets.token_urlsafe(32)}"
     expires_at = None if seconds is None else tx.now + seconds
     row = tx.conn.execute(
@@ -109,7 +153,7 @@ def create_login(tx: Tx, user: int, seconds: float) -> wire.LoginLink:
 
 
 def redeem(tx: Tx, code: str, seconds: float) -> Secret | None:
-    """Use a login code up and return a session; nothing if the code is not good."""
+    """Use a login code up and return a session; nothing if the code is not good (`why_not` says why)."""
     used = tx.conn.execute(
         update(credentials)
         .where(
@@ -124,13 +168,35 @@ def redeem(tx: Tx, code: str, seconds: float) -> Secret | None:
     return None if used is None else _issue(tx, used.user_id, "session", "", seconds)
 
 
+def why_not(tx: Tx, code: str) -> errors.Unauthenticated:
+    """Return why a login code is not good, and what to do."""
+    known = (
+        select(credentials.c.revoked_at, users.c.deactivated_at)
+        .join(users, users.c.id == credentials.c.user_id)
+        .where(credentials.c.hash == hashed(code), credentials.c.kind == "login")
+    )
+    row = tx.conn.execute(known).one_or_none()
+    if row is None:
+        return errors.Unauthenticated(
+            "There is no such login link; open it as it was given to you, to the last letter."
+        )
+    if row.deactivated_at is not None:
+        return errors.Deactivated("This account is deactivated; ask an administrator of this server.")
+    if row.revoked_at is not None:
+        return errors.LoginUsed("This login link was used before, and each works once; ask for a new one.")
+    return errors.LoginExpired("This login link is too old; ask for a new one.")
+
+
+_STANDING = select(users.c.role, users.c.deactivated_at).where(users.c.id == bindparam("user"))
 _FIND = (
-    select(users.c.id, users.c.name, users.c.role, credentials.c.id.label("credential"), credentials.c.expires_at)
+    select(users.c.id, users.c.name, users.c.role, credentials.c.id.label("credential"))
+    .add_columns(credentials.c.expires_at, credentials.c.last_used_at)
     .join(credentials, credentials.c.user_id == users.c.id)
     .where(
         credentials.c.hash == bindparam("hash"),
         credentials.c.kind == bindparam("kind"),
         credentials.c.revoked_at.is_(None),
+        users.c.deactivated_at.is_(None),
     )
 )
 
@@ -140,7 +206,26 @@ def find(tx: Tx, secret_hash: str, kind: CredentialKind) -> Found | None:
     row = tx.conn.execute(_FIND, {"hash": secret_hash, "kind": kind}).one_or_none()
     if row is None or (row.expires_at is not None and row.expires_at <= tx.now):
         return None
-    return Found(row.id, row.name, row.role, row.credential)
+    unused = row.last_used_at is None or row.last_used_at <= tx.now - NOTED_SECONDS
+    return Found(row.id, row.name, row.role, row.credential, unused)
+
+
+def refuse_gone(tx: Tx, user: int) -> None:
+    """Refuse work to somebody who was deactivated, or lost the role for it, while they waited.
+
+    Raises:
+        Unauthenticated, Forbidden: accordingly.
+    """
+    row = tx.conn.execute(_STANDING, {"user": user}).one()
+    if row.deactivated_at is not None:
+        raise errors.Unauthenticated("This account was deactivated.")
+    if row.role not in ANSWERING:
+        raise errors.Forbidden(f"The role {row.role} does not answer queries.")
+
+
+def note_use(tx: Tx, credential: int) -> None:
+    """Note that a credential is used now."""
+    tx.conn.execute(update(credentials).where(credentials.c.id == credential).values(last_used_at=tx.now))
 
 
 def revoke(tx: Tx, credential: int) -> None:
@@ -150,18 +235,6 @@ def revoke(tx: Tx, credential: int) -> None:
         .where(credentials.c.id == credential, credentials.c.revoked_at.is_(None))
         .values(revoked_at=tx.now)
     )
-
-
-def revoke_token(tx: Tx, token: int) -> None:
-    """Revoke an API token.
-
-    Raises:
-        NotFound: if there is no such token.
-    """
-    known = select(credentials.c.id).where(credentials.c.id == token, credentials.c.kind == "api")
-    if tx.conn.execute(known).one_or_none() is None:
-        raise errors.NotFound(f"There is no token {token}.")
-    revoke(tx, token)
 
 
 def me(tx: Tx, user: int) -> wire.Me:

@@ -12,6 +12,7 @@ from server import canonical, errors, events, frames, kinds, live, money, runs, 
 from server.database import Tx
 from server.money import to_units
 from server.tables import IS_LIVE, answers, assignments, queries, users
+from server.tables import runs as run_table
 
 QueryId = Annotated[int, Path(ge=1, le=2**63 - 1)]
 
@@ -30,8 +31,10 @@ QUERIES: Select[Any] = (
         answers.c.seconds,
         answers.c.active_seconds,
         func.coalesce(_annotator.c.name, _holder.c.name).label("annotator"),
+        func.coalesce(run_table.c.gold_of, run_table.c.id).label("shown_run"),  # a gold query looks like the others
     )
     .select_from(queries)
+    .join(run_table, run_table.c.id == queries.c.run_id)
     .outerjoin(answers, answers.c.id == queries.c.answer_id)
     .outerjoin(_annotator, _annotator.c.id == answers.c.user_id)
     .outerjoin(assignments, and_(assignments.c.query_id == queries.c.id, IS_LIVE))
@@ -86,7 +89,7 @@ def of_row(row: Row[Any]) -> wire.Query:
     """Return a row of `QUERIES` as it goes over the wire."""
     return wire.Query(
         id=row.id,
-        run=row.run_id,
+        run=row.shown_run,
         state=row.state,
         priority=row.priority,
         created_at=row.created_at,
@@ -233,7 +236,7 @@ def use(tx: Tx, query: int) -> wire.Query:
     runs.lock(tx, found.run)
     changed = tx.conn.execute(
         update(queries)
-        .where(queries.c.id == query, queries.c.state == "answered", queries.c.used.is_(False))
+        .where(queries.c.id == query, queries.c.run_id == found.run, queries.c.state == "answered", ~queries.c.used)
         .values(used=True)
     )
     now = view(tx, query)

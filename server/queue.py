@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from sqlalchemy import bindparam, insert, select, update
 from sqlalchemy.sql.elements import ColumnElement
 
-from server import activity, choosing, errors, live, presence, queries, runs, wire
+from server import activity, choosing, errors, live, people, presence, probing, queries, runs, wire
 from server.choosing import Taker
 from server.database import Tx
 from server.settings import Settings
@@ -71,6 +71,7 @@ def lease(tx: Tx, wish: Wish) -> wire.Assignment | None:
     """Lease the next query to an annotator, if there is one."""
     taker = wish.taker
     expire(tx)
+    people.refuse_gone(tx, taker.user)
     if taker.run is not None:
         runs.find(tx, taker.run)
     if taker.defer == 0:
@@ -78,6 +79,7 @@ def lease(tx: Tx, wish: Wish) -> wire.Assignment | None:
     query = choosing.take(tx, taker)
     if query is None:
         return None
+    query = probing.instead(tx, taker, query)
     return view(tx, grant(tx, query, taker.user, wish.lease_seconds, deferring=taker.defer > 0, after=wish.after))
 
 

@@ -38,7 +38,7 @@ RUNS: Select[Any] = select(
     _success_rate.label("success_rate"),
     _episodes_done.label("episodes_done"),
     _open_queries.label("open_queries"),
-)
+).where(runs.c.gold_of.is_(None))
 
 
 def answers_topic(run: str) -> str:
@@ -64,6 +64,7 @@ def of_row(row: Row[Any]) -> wire.Run:
         episodes_done=row.episodes_done,
         success_rate=row.success_rate,
         open_queries=row.open_queries,
+        gold_rate=row.gold_rate,
         result=None if row.result is None else json.loads(row.result),
         created_at=row.created_at,
         finished_at=row.finished_at,
@@ -152,6 +153,8 @@ def patch(tx: Tx, run: str, wanted: wire.RunPatch) -> wire.Run:
         changes["result"] = None if wanted.result is None else canonical.text(wanted.result)
     if "budget" in sent:
         changes["budget"] = _checked_budget(row, wanted.budget)
+    if wanted.gold_rate is not None:
+        changes["gold_rate"] = wanted.gold_rate
     if wanted.state is not None and wanted.state != row.state:
         changes |= _new_state(tx, row, wanted.state)
     if changes:
@@ -177,9 +180,18 @@ def _new_state(tx: Tx, row: Row[Any], state: wire.RunState) -> dict[str, Any]:
         raise errors.RunFinished("A finished run stays finished; start a new one.")
     if state == "finished":
         _cancel_open(tx, row.id)
+        _finish_shadow(tx, row.id)
         return {"state": state, "finished_at": tx.now}
     tx.wake(live.QUEUE)
     return {"state": state}
+
+
+def _finish_shadow(tx: Tx, run: str) -> None:
+    """Let gold queries end with the run's own."""
+    row = tx.conn.execute(select(runs.c.id).where(runs.c.gold_of == run).with_for_update()).one_or_none()
+    if row is not None:
+        _cancel_open(tx, row.id)
+        tx.conn.execute(update(runs).where(runs.c.id == row.id).values(state="finished", finished_at=tx.now))
 
 
 def _cancel_open(tx: Tx, run: str) -> None:

@@ -43,6 +43,9 @@ class Settings(BaseSettings):
     secure_cookies: bool = Field(
         default=False, description="True behind an https proxy: the cookie travels on https only."
     )
+    practice: Path | None = Field(
+        default=None, description="Practice queries that `waypost practice` made; absent: those of the maze."
+    )
     page: Path | None = Field(default=None, description="Folder of the built page; found by itself if absent.")
 
     @field_validator("hosts", mode="before")

@@ -49,6 +49,7 @@ users = Table(
     Column("name", Text, nullable=False, unique=True),
     Column("role", Text, nullable=False),
     Column("created_at", Float, nullable=False),
+    Column("deactivated_at", Float),
     one_of("role", "admin", "learner", "annotator", "viewer"),
     sqlite_autoincrement=True,
 )
@@ -65,6 +66,7 @@ credentials = Table(
     Column("created_at", Float, nullable=False),
     Column("expires_at", Float),
     Column("revoked_at", Float),
+    Column("last_used_at", Float),  # to the minute
     one_of("kind", "api", "session", "login"),
     sqlite_autoincrement=True,
 )
@@ -89,10 +91,16 @@ runs = Table(
     Column("result", Text),
     Column("created_at", Float, nullable=False),
     Column("finished_at", Float),
+    # The share of an annotator's queries in this run that are gold.
+    Column("gold_rate", Float, nullable=False, server_default=text("0")),
+    # Set in the shadow of another run, where gold queries are answered: nothing in it is ever that run's.
+    Column("gold_of", Text, ForeignKey("runs.id")),
     one_of("state", "running", "paused", "finished"),
+    CheckConstraint("gold_rate >= 0 AND gold_rate <= 0.5", name="gold_rate"),
     CheckConstraint("spent >= 0 AND reserved >= 0", name="money_not_negative"),
     CheckConstraint("budget IS NULL OR spent + reserved <= budget", name="budget_not_overspent"),
     CheckConstraint("(state = 'finished') = (finished_at IS NOT NULL)", name="finished_at"),
+    Index("uq_runs_gold_of", "gold_of", unique=True),
     sqlite_autoincrement=True,
 )
 
@@ -270,4 +278,48 @@ events = Table(
     one_of("event", "asked", "answered", "retracted", "used", "cancelled", "episode", "run"),
     Index("ix_events_run", "run_id", "id"),
     sqlite_autoincrement=True,
+)
+
+# Queries of a run whose answers are known.
+gold = Table(
+    "gold",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), nullable=False),
+    Column("kind", Text, nullable=False),
+    Column("ask", Text, nullable=False),
+    Column("accepted", Text, nullable=False),
+    Column("digest", Text, nullable=False),
+    # The query it was marked from, and who answered that: it is never put to them.
+    Column("query_id", RowId, ForeignKey("queries.id")),
+    Column("author_id", RowId, ForeignKey("users.id")),
+    Column("created_at", Float, nullable=False),
+    Column("retired_at", Float),
+    one_of("kind", *KIND_WORDS),
+    UniqueConstraint("run_id", "digest"),
+    sqlite_autoincrement=True,
+)
+
+# One gold query put to one annotator: a query in the run's shadow, and how many of its labels were right.
+probes = Table(
+    "probes",
+    metadata,
+    Column("query_id", RowId, ForeignKey("queries.id"), primary_key=True),
+    Column("gold_id", RowId, ForeignKey("gold.id"), nullable=False),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    Column("n_labels", Integer),
+    Column("n_right", Integer),
+    CheckConstraint("(n_labels IS NULL) = (n_right IS NULL)", name="scored"),
+    CheckConstraint("n_right >= 0 AND n_right <= n_labels", name="right_of_labels"),
+    Index("ix_probes_user", "user_id", "gold_id"),
+    Index("ix_probes_gold", "gold_id"),
+)
+
+# How many queries of a run an annotator has been handed since it has a gold rate: where in the stream they are.
+gold_streams = Table(
+    "gold_streams",
+    metadata,
+    Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), primary_key=True),
+    Column("handed", Integer, nullable=False),
 )

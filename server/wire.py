@@ -21,6 +21,9 @@ Role = Literal["admin", "learner", "annotator", "viewer"]
 
 Name = Annotated[str, Field(min_length=1, max_length=100, pattern=r"^[^\x00-\x1f\x7f]+$")]
 Note = Annotated[str, Field(max_length=500, pattern=r"^[^\x00]*$")]
+GoldRate = Annotated[
+    float, Field(ge=0, le=0.5, allow_inf_nan=False, description="Share of an annotator's queries that are gold.")
+]
 Units = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
 FrameHash = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$", description="The SHA-256 of a PNG, in hexadecimal.")]
 
@@ -279,6 +282,7 @@ class RunPatch(Message):
     state: RunState | None = None
     budget: Units | None = None
     result: dict[str, JsonValue] | None = Field(default=None, description="What the learner reports at its end.")
+    gold_rate: GoldRate | None = None
 
 
 class Run(Message):
@@ -299,6 +303,7 @@ class Run(Message):
     episodes_done: int
     success_rate: float | None = Field(description="Over the trailing 100 test episodes; null before the first.")
     open_queries: int
+    gold_rate: float
     result: dict[str, JsonValue] | None
     created_at: float
     finished_at: float | None
@@ -506,6 +511,16 @@ class UserCreate(Message):
     role: Role
 
 
+class UserPatch(Message):
+    """What may change in a user; absent fields stay as they are."""
+
+    role: Role | None = None
+    active: bool | None = Field(
+        default=None,
+        description="False ends their sessions, tokens, links and leases; their answers stay.",
+    )
+
+
 class User(Message):
     """A user, without secrets."""
 
@@ -513,6 +528,8 @@ class User(Message):
     name: str
     role: Role
     created_at: float
+    deactivated_at: float | None = Field(description="Since when they may not call; null while they may.")
+    last_used_at: float | None = Field(description="When they last called, to the minute.")
 
 
 class UserList(Message):
@@ -522,9 +539,9 @@ class UserList(Message):
 
 
 class TokenCreate(Message):
-    """An API token for a user."""
+    """An API token for the caller, or, made by an administrator, for any user."""
 
-    user: int = Field(ge=1, le=2**63 - 1)
+    user: int | None = Field(default=None, ge=1, le=2**63 - 1, description="Whose; null for the caller's own.")
     label: Note = ""
 
 
@@ -535,11 +552,198 @@ class NewToken(Message):
     token: str
 
 
+class Token(Message):
+    """A token that is good, without its secret."""
+
+    id: int
+    label: str
+    created_at: float
+    last_used_at: float | None = Field(description="To the minute; null if never.")
+
+
+class TokenList(Message):
+    """A user's tokens that are good, oldest first."""
+
+    tokens: list[Token]
+
+
+class Session(Message):
+    """A browser that is signed in."""
+
+    id: int
+    created_at: float
+    last_used_at: float | None
+    expires_at: float
+    current: bool = Field(description="Whether this is the session that asks.")
+
+
+class SessionList(Message):
+    """The caller's sessions, oldest first."""
+
+    sessions: list[Session]
+
+
+class LoginLinkCreate(Message):
+    """How long a new login link is to be good."""
+
+    seconds: float | None = Field(
+        default=None, ge=60, le=7 * 86_400, allow_inf_nan=False, description="Null for the server's usual time."
+    )
+
+
 class LoginLink(Message):
     """A one-time login link's code, shown once."""
 
     code: str
     expires_at: float
+
+
+class Tally(Message):
+    """What answers come to. Gold queries are among them: they are work too, though no run pays for them."""
+
+    answers: int
+    units: float
+
+
+class NumbersOfKind(Message):
+    """An annotator's answers to one kind of query."""
+
+    kind: Kind
+    total: Tally
+    median_seconds: float
+    gold: int = Field(description="How many of them were to gold queries.")
+    gold_right: int = Field(description="How many of those were right in every label.")
+    agreement: float | None = Field(description="The share of right labels among those of gold queries.")
+
+
+class Numbers(Message):
+    """An annotator's own numbers, over all runs. Days are those of UTC."""
+
+    user: int
+    name: str
+    total: Tally
+    today: Tally
+    week: Tally = Field(description="Today and the six days before.")
+    gold: int
+    agreement: float | None
+    by_kind: list[NumbersOfKind] = Field(description="The kinds they have answered.")
+
+
+class NumbersList(Message):
+    """Everybody's numbers who ever answered, by name."""
+
+    annotators: list[Numbers]
+
+
+# --- gold queries and practice ---------------------------------------------------------------------------------------
+
+
+class KnownVerdict(Message):
+    """What an inspection should say."""
+
+    kind: Literal["inspect_full", "inspect_lo"]
+    verdict: Verdict
+
+
+Choices = Annotated[list[Name], Field(min_length=1, max_length=1_000)]
+
+
+class KnownSubgoals(Message):
+    """The subgoals that are right, for each segment."""
+
+    kind: Literal["label_hi"]
+    subgoals: list[Choices] = Field(max_length=10_000)
+
+
+class KnownSegment(Message):
+    """The actions that are right, for each state before the segment should end."""
+
+    kind: Literal["label_lo"]
+    actions: list[Choices] = Field(max_length=10_000)
+    end: int | None = Field(ge=0, le=10_000, description="The state it should end in, from 0; null if in none of them.")
+
+
+class KnownActions(Message):
+    """The actions that are right, for each state of the full trajectory."""
+
+    kind: Literal["label_full"]
+    actions: list[Choices] = Field(max_length=100_000)
+
+
+Known = Annotated[KnownVerdict | KnownSubgoals | KnownSegment | KnownActions, Field(discriminator="kind")]
+
+
+class KnownAsk(Message):
+    """A query and what is right: for each label all that is, where several choices are as good."""
+
+    ask: Ask
+    known: Known
+
+
+class GoldPost(Message):
+    """Queries to be gold in a run. What is gold already stays as it is."""
+
+    answered: list[int] = Field(
+        default_factory=list, max_length=1_000, description="Queries of this run; right is just what was answered."
+    )
+    known: list[KnownAsk] = Field(default_factory=list, max_length=1_000)
+
+
+class Gold(Message):
+    """A gold query, and what annotators made of it."""
+
+    id: int
+    kind: Kind
+    question: str
+    known: Known
+    query: int | None = Field(description="The query it was marked from.")
+    author: str | None = Field(description="Who answered that; it is never put to them.")
+    answers: int
+    agreement: float | None = Field(description="The share of right labels over all annotators.")
+    created_at: float
+
+
+class GoldList(Message):
+    """The gold queries of a run, newest first."""
+
+    gold: list[Gold]
+
+
+class Mark(Message):
+    """One label of an answer, beside what is right there."""
+
+    place: int = Field(description="Which label, from 0; of a segment's actions and its end, which state.")
+    given: str | None = Field(description='"(done)" and "(not done)" are the two labels of a segment\'s end.')
+    right: list[str] = Field(description="All that is right there.")
+    is_right: bool
+
+
+class PracticeQuery(Message):
+    """A query to practice on."""
+
+    id: int
+    ask: Ask
+
+
+class Practice(Message):
+    """Queries whose answers are known, in the order to meet them. Practicing stores nothing and costs nothing."""
+
+    vocabulary: Vocabulary
+    queries: list[PracticeQuery]
+
+
+class PracticeAnswer(Message):
+    """An answer given for practice."""
+
+    answer: Answer
+
+
+class Feedback(Message):
+    """How good an answer was, label by label."""
+
+    marks: list[Mark]
+    reasons: list[str] = Field(description="Why, for each label.")
+    is_right: bool = Field(description="Whether all of them are right.")
 
 
 class Health(Message):

@@ -1,12 +1,12 @@
-"""People and programs: sessions, users, tokens and login links."""
+"""People and programs: login and logout, users, their tokens and login links."""
 
 from typing import Annotated
 
 from fastapi import APIRouter, Path, Request, Response
 
-from server import errors, people, wire
-from server.access import COOKIE, AdminCalls, AnyoneCalls, refuse_cross_site
-from server.context import Ctx
+from server import accounts, errors, numbers, people, wire
+from server.access import ADMINS, COOKIE, AdminCalls, AnyoneCalls, refuse_cross_site
+from server.context import Context, Ctx
 from server.jsonbody import JsonRoute
 from server.problems import refusals
 
@@ -15,10 +15,30 @@ router = APIRouter(tags=["people"], route_class=JsonRoute)
 RowId = Annotated[int, Path(ge=1, le=2**63 - 1)]
 
 
+def set_session(context: Context, request: Request, response: Response, secret: str) -> None:
+    """Have the browser keep a session for as long as the server does."""
+    response.set_cookie(
+        COOKIE,
+        secret,
+        max_age=int(context.settings.session_seconds),
+        path="/",
+        httponly=True,
+        samesite="strict",
+        secure=context.settings.secure_cookies or request.url.scheme == "https",
+    )
+
+
 @router.post(
     "/session",
     operation_id="login",
-    responses=refusals(errors.Unauthenticated, errors.CrossSite, errors.TooManyAttempts),
+    responses=refusals(
+        errors.Unauthenticated,
+        errors.LoginUsed,
+        errors.LoginExpired,
+        errors.Deactivated,
+        errors.CrossSite,
+        errors.TooManyAttempts,
+    ),
 )
 async def login(body: wire.Login, request: Request, response: Response, context: Ctx) -> wire.Me:
     """Trade the one-time code of a login link for a session cookie."""
@@ -30,11 +50,8 @@ async def login(body: wire.Login, request: Request, response: Response, context:
     session = await context.db.write(lambda tx: people.redeem(tx, body.code, seconds))
     if session is None:
         context.attempts.failed(client)
-        raise errors.Unauthenticated("The login code is wrong, used or too old; ask for a new login link.")
-    secure = context.settings.secure_cookies or request.url.scheme == "https"
-    response.set_cookie(
-        COOKIE, session.secret, max_age=int(seconds), path="/", httponly=True, samesite="strict", secure=secure
-    )
+        raise await context.db.read(lambda tx: people.why_not(tx, body.code))
+    set_session(context, request, response, session.secret)
     return await context.db.read(lambda tx: people.me(tx, session.user))
 
 
@@ -45,12 +62,6 @@ async def logout(response: Response, context: Ctx, caller: AnyoneCalls) -> None:
         await context.db.write(lambda tx: people.revoke(tx, caller.credential))
         context.credentials.forget()
     response.delete_cookie(COOKIE, path="/")
-
-
-@router.get("/me", operation_id="me")
-async def me(context: Ctx, caller: AnyoneCalls) -> wire.Me:
-    """Say who is calling, and what they have answered."""
-    return await context.db.read(lambda tx: people.me(tx, caller.user))
 
 
 @router.get("/users", operation_id="listUsers")
@@ -65,23 +76,72 @@ async def create_user(body: wire.UserCreate, context: Ctx, _: AdminCalls) -> wir
     return await context.db.write(lambda tx: people.create_user(tx, body.name, body.role))
 
 
+@router.get("/users/{user}", operation_id="getUser", responses=refusals(errors.NotFound))
+async def get_user(user: RowId, context: Ctx, _: AdminCalls) -> wire.User:
+    """Return a user."""
+    return await context.db.read(lambda tx: people.view(tx, user))
+
+
+@router.patch("/users/{user}", operation_id="patchUser", responses=refusals(errors.NotFound, errors.LastAdministrator))
+async def patch_user(user: RowId, body: wire.UserPatch, context: Ctx, _: AdminCalls) -> wire.User:
+    """Change a user's role, deactivate or reactivate them.
+
+    Who is deactivated is signed out, their tokens and links end for good, and what they hold goes back to the queue.
+    """
+    changed = await context.db.write(lambda tx: accounts.change(tx, user, body))
+    context.credentials.forget()
+    return changed
+
+
 @router.post(
-    "/users/{user}/login-links", status_code=201, operation_id="createLoginLink", responses=refusals(errors.NotFound)
+    "/users/{user}/login-links",
+    status_code=201,
+    operation_id="createLoginLink",
+    responses=refusals(errors.NotFound, errors.NotActive),
 )
-async def create_login_link(user: RowId, context: Ctx, _: AdminCalls) -> wire.LoginLink:
+async def create_login_link(
+    user: RowId, context: Ctx, _: AdminCalls, body: wire.LoginLinkCreate | None = None
+) -> wire.LoginLink:
     """Create a one-time login code; the link is `<this server>/login#<code>`."""
-    seconds = context.settings.link_seconds
+    seconds = (body and body.seconds) or context.settings.link_seconds
     return await context.db.write(lambda tx: people.create_login(tx, user, seconds))
 
 
-@router.post("/tokens", status_code=201, operation_id="createToken", responses=refusals(errors.NotFound))
-async def create_token(body: wire.TokenCreate, context: Ctx, _: AdminCalls) -> wire.NewToken:
-    """Create an API token; it is shown this once."""
-    return await context.db.write(lambda tx: people.create_token(tx, body.user, body.label))
+@router.get("/users/{user}/tokens", operation_id="listTokens", responses=refusals(errors.NotFound))
+async def list_tokens(user: RowId, context: Ctx, _: AdminCalls) -> wire.TokenList:
+    """List a user's API tokens, without their secrets."""
+    return await context.db.read(lambda tx: accounts.tokens(tx, user))
+
+
+@router.get("/users/{user}/numbers", operation_id="getNumbers", responses=refusals(errors.NotFound))
+async def get_numbers(user: RowId, context: Ctx, _: AdminCalls) -> wire.Numbers:
+    """Return what a user has answered, how fast and how far right."""
+    return await context.db.read(lambda tx: numbers.of_user(tx, people.view(tx, user).id))
+
+
+@router.get("/numbers", operation_id="listNumbers")
+async def list_numbers(context: Ctx, _: AdminCalls) -> wire.NumbersList:
+    """Return the numbers of all who ever answered."""
+    return await context.db.read(numbers.of_everyone)
+
+
+@router.post(
+    "/tokens",
+    status_code=201,
+    operation_id="createToken",
+    responses=refusals(errors.Forbidden, errors.NotFound, errors.NotActive),
+)
+async def create_token(body: wire.TokenCreate, context: Ctx, caller: AnyoneCalls) -> wire.NewToken:
+    """Create an API token, for oneself or, as an administrator, for anybody; it is shown this once."""
+    user = caller.user if body.user is None else body.user
+    if user != caller.user and caller.role not in ADMINS:
+        raise errors.Forbidden("Only an administrator makes tokens for others.")
+    return await context.db.write(lambda tx: people.create_token(tx, user, body.label))
 
 
 @router.delete("/tokens/{token}", status_code=204, operation_id="revokeToken", responses=refusals(errors.NotFound))
-async def revoke_token(token: RowId, context: Ctx, _: AdminCalls) -> None:
-    """Revoke a token, at once and for good."""
-    await context.db.write(lambda tx: people.revoke_token(tx, token))
+async def revoke_token(token: RowId, context: Ctx, caller: AnyoneCalls) -> None:
+    """Revoke one's own token, or, as an administrator, anybody's; at once and for good."""
+    owner = None if caller.role in ADMINS else caller.user
+    await context.db.write(lambda tx: accounts.revoke_token(tx, token, owner))
     context.credentials.forget()

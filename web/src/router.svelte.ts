@@ -3,13 +3,20 @@ export type Route =
   | { readonly view: 'work'; readonly run: string | null }
   | { readonly view: 'runs' }
   | { readonly view: 'run'; readonly run: string }
+  | { readonly view: 'gold'; readonly run: string }
+  | { readonly view: 'practice' | 'people' | 'me' }
+  | { readonly view: 'person'; readonly user: number }
   | { readonly view: 'nowhere' };
 
 export function parseRoute(path: string, search: string): Route {
   const [first = '', second = '', ...rest] = path.split('/').filter(Boolean);
+  if (first === 'runs' && rest.length === 1 && rest[0] === 'gold')
+    return { view: 'gold', run: decoded(second) };
   if (rest.length > 0) return { view: 'nowhere' };
   if (first === 'runs' && second !== '') return { view: 'run', run: decoded(second) };
+  if (first === 'people' && /^[1-9]\d{0,14}$/.test(second)) return { view: 'person', user: Number(second) };
   if (second !== '') return { view: 'nowhere' };
+  if (first === 'practice' || first === 'people' || first === 'me') return { view: first };
   if (first === 'runs') return { view: 'runs' };
   if (first === 'login') return { view: 'login' };
   if (first === 'work' || first === '') return { view: 'work', run: new URLSearchParams(search).get('run') };

@@ -401,26 +401,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/me": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Me
-         * @description Say who is calling, and what they have answered.
-         */
-        get: operations["me"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/v1/users": {
         parameters: {
             query?: never;
@@ -445,6 +425,32 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/users/{user}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get User
+         * @description Return a user.
+         */
+        get: operations["getUser"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        /**
+         * Patch User
+         * @description Change a user's role, deactivate or reactivate them.
+         *
+         *     Who is deactivated is signed out, their tokens and links end for good, and what they hold goes back to the queue.
+         */
+        patch: operations["patchUser"];
+        trace?: never;
+    };
     "/api/v1/users/{user}/login-links": {
         parameters: {
             query?: never;
@@ -465,6 +471,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/users/{user}/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tokens
+         * @description List a user's API tokens, without their secrets.
+         */
+        get: operations["listTokens"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/users/{user}/numbers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Numbers
+         * @description Return what a user has answered, how fast and how far right.
+         */
+        get: operations["getNumbers"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/numbers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Numbers
+         * @description Return the numbers of all who ever answered.
+         */
+        get: operations["listNumbers"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/tokens": {
         parameters: {
             query?: never;
@@ -476,7 +542,7 @@ export interface paths {
         put?: never;
         /**
          * Create Token
-         * @description Create an API token; it is shown this once.
+         * @description Create an API token, for oneself or, as an administrator, for anybody; it is shown this once.
          */
         post: operations["createToken"];
         delete?: never;
@@ -497,9 +563,180 @@ export interface paths {
         post?: never;
         /**
          * Revoke Token
-         * @description Revoke a token, at once and for good.
+         * @description Revoke one's own token, or, as an administrator, anybody's; at once and for good.
          */
         delete: operations["revokeToken"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/me": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Me
+         * @description Say who is calling, and what they have answered. A browser's session begins its length anew with this.
+         */
+        get: operations["me"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/me/numbers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * My Numbers
+         * @description Return what the caller has answered, how fast and how far right.
+         */
+        get: operations["myNumbers"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/me/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * My Tokens
+         * @description List the caller's API tokens, without their secrets.
+         */
+        get: operations["myTokens"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/me/sessions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * My Sessions
+         * @description List the browsers the caller is signed in with.
+         */
+        get: operations["mySessions"];
+        put?: never;
+        post?: never;
+        /**
+         * Logout Everywhere
+         * @description Sign the caller out of every browser, this one too; tokens stay good.
+         */
+        delete: operations["logoutEverywhere"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/gold": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Gold
+         * @description List the run's gold queries, newest first, with what annotators made of them.
+         */
+        get: operations["listGold"];
+        put?: never;
+        /**
+         * Add Gold
+         * @description Make queries gold: answered ones of this run, or others whose answers are known. All of them or none.
+         *
+         *     The run's `gold_rate` says how often they are put to annotators, who cannot tell them from the learner's. They
+         *     are never in its ledger, and the learner never sees them.
+         */
+        post: operations["addGold"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/gold/{item}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Retire Gold
+         * @description Put a gold query to nobody any more; what was answered to it stays.
+         */
+        delete: operations["retireGold"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/practice": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Practice
+         * @description Return the queries to practice on, in the order to meet them.
+         */
+        get: operations["getPractice"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/practice/{query}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Mark Practice
+         * @description Say how good an answer is, label by label, and why.
+         */
+        post: operations["practice"];
+        delete?: never;
         options?: never;
         head?: never;
         patch?: never;
@@ -1332,6 +1569,24 @@ export interface components {
             };
         };
         /**
+         * Feedback
+         * @description How good an answer was, label by label.
+         */
+        Feedback: {
+            /** Marks */
+            marks: components["schemas"]["Mark"][];
+            /**
+             * Reasons
+             * @description Why, for each label.
+             */
+            reasons: string[];
+            /**
+             * Is Right
+             * @description Whether all of them are right.
+             */
+            is_right: boolean;
+        };
+        /**
          * Frame
          * @description A PNG and the hash that it goes by.
          */
@@ -1362,6 +1617,63 @@ export interface components {
         FrameUpload: {
             /** Frames */
             frames: components["schemas"]["Frame"][];
+        };
+        /**
+         * Gold
+         * @description A gold query, and what annotators made of it.
+         */
+        Gold: {
+            /** Id */
+            id: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /** Question */
+            question: string;
+            /** Known */
+            known: components["schemas"]["KnownVerdict"] | components["schemas"]["KnownSubgoals"] | components["schemas"]["KnownSegment"] | components["schemas"]["KnownActions"];
+            /**
+             * Query
+             * @description The query it was marked from.
+             */
+            query: number | null;
+            /**
+             * Author
+             * @description Who answered that; it is never put to them.
+             */
+            author: string | null;
+            /** Answers */
+            answers: number;
+            /**
+             * Agreement
+             * @description The share of right labels over all annotators.
+             */
+            agreement: number | null;
+            /** Created At */
+            created_at: number;
+        };
+        /**
+         * GoldList
+         * @description The gold queries of a run, newest first.
+         */
+        GoldList: {
+            /** Gold */
+            gold: components["schemas"]["Gold"][];
+        };
+        /**
+         * GoldPost
+         * @description Queries to be gold in a run. What is gold already stays as it is.
+         */
+        GoldPost: {
+            /**
+             * Answered
+             * @description Queries of this run; right is just what was answered.
+             */
+            answered?: number[];
+            /** Known */
+            known?: components["schemas"]["KnownAsk"][];
         };
         /**
          * Health
@@ -1406,6 +1718,76 @@ export interface components {
             verdict: "pass" | "fail";
         };
         JsonValue: unknown;
+        /**
+         * KnownActions
+         * @description The actions that are right, for each state of the full trajectory.
+         */
+        KnownActions: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_full";
+            /** Actions */
+            actions: string[][];
+        };
+        /**
+         * KnownAsk
+         * @description A query and what is right: for each label all that is, where several choices are as good.
+         */
+        KnownAsk: {
+            /** Ask */
+            ask: components["schemas"]["AskHierDemoInput"] | components["schemas"]["AskInspectFullInput"] | components["schemas"]["AskLabelHiInput"] | components["schemas"]["AskInspectLoInput"] | components["schemas"]["AskLabelLoInput"] | components["schemas"]["AskLabelFullInput"];
+            /** Known */
+            known: components["schemas"]["KnownVerdict"] | components["schemas"]["KnownSubgoals"] | components["schemas"]["KnownSegment"] | components["schemas"]["KnownActions"];
+        };
+        /**
+         * KnownSegment
+         * @description The actions that are right, for each state before the segment should end.
+         */
+        KnownSegment: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_lo";
+            /** Actions */
+            actions: string[][];
+            /**
+             * End
+             * @description The state it should end in, from 0; null if in none of them.
+             */
+            end: number | null;
+        };
+        /**
+         * KnownSubgoals
+         * @description The subgoals that are right, for each segment.
+         */
+        KnownSubgoals: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "label_hi";
+            /** Subgoals */
+            subgoals: string[][];
+        };
+        /**
+         * KnownVerdict
+         * @description What an inspection should say.
+         */
+        KnownVerdict: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "inspect_full" | "inspect_lo";
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "pass" | "fail";
+        };
         /**
          * LabelFullAnswer
          * @description a*_1 .. a*_H over the joined segments.
@@ -1503,6 +1885,40 @@ export interface components {
             expires_at: number;
         };
         /**
+         * LoginLinkCreate
+         * @description How long a new login link is to be good.
+         */
+        LoginLinkCreate: {
+            /**
+             * Seconds
+             * @description Null for the server's usual time.
+             */
+            seconds?: number | null;
+        };
+        /**
+         * Mark
+         * @description One label of an answer, beside what is right there.
+         */
+        Mark: {
+            /**
+             * Place
+             * @description Which label, from 0; of a segment's actions and its end, which state.
+             */
+            place: number;
+            /**
+             * Given
+             * @description "(done)" and "(not done)" are the two labels of a segment's end.
+             */
+            given: string | null;
+            /**
+             * Right
+             * @description All that is right there.
+             */
+            right: string[];
+            /** Is Right */
+            is_right: boolean;
+        };
+        /**
          * Me
          * @description Who is calling.
          */
@@ -1550,6 +1966,93 @@ export interface components {
             id: number;
             /** Token */
             token: string;
+        };
+        /**
+         * Numbers
+         * @description An annotator's own numbers, over all runs. Days are those of UTC.
+         */
+        Numbers: {
+            /** User */
+            user: number;
+            /** Name */
+            name: string;
+            total: components["schemas"]["Tally"];
+            today: components["schemas"]["Tally"];
+            /** @description Today and the six days before. */
+            week: components["schemas"]["Tally"];
+            /** Gold */
+            gold: number;
+            /** Agreement */
+            agreement: number | null;
+            /**
+             * By Kind
+             * @description The kinds they have answered.
+             */
+            by_kind: components["schemas"]["NumbersOfKind"][];
+        };
+        /**
+         * NumbersList
+         * @description Everybody's numbers who ever answered, by name.
+         */
+        NumbersList: {
+            /** Annotators */
+            annotators: components["schemas"]["Numbers"][];
+        };
+        /**
+         * NumbersOfKind
+         * @description An annotator's answers to one kind of query.
+         */
+        NumbersOfKind: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            total: components["schemas"]["Tally"];
+            /** Median Seconds */
+            median_seconds: number;
+            /**
+             * Gold
+             * @description How many of them were to gold queries.
+             */
+            gold: number;
+            /**
+             * Gold Right
+             * @description How many of those were right in every label.
+             */
+            gold_right: number;
+            /**
+             * Agreement
+             * @description The share of right labels among those of gold queries.
+             */
+            agreement: number | null;
+        };
+        /**
+         * Practice
+         * @description Queries whose answers are known, in the order to meet them. Practicing stores nothing and costs nothing.
+         */
+        Practice: {
+            vocabulary: components["schemas"]["Vocabulary"];
+            /** Queries */
+            queries: components["schemas"]["PracticeQuery"][];
+        };
+        /**
+         * PracticeAnswer
+         * @description An answer given for practice.
+         */
+        PracticeAnswer: {
+            /** Answer */
+            answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+        };
+        /**
+         * PracticeQuery
+         * @description A query to practice on.
+         */
+        PracticeQuery: {
+            /** Id */
+            id: number;
+            /** Ask */
+            ask: components["schemas"]["AskHierDemo"] | components["schemas"]["AskInspectFull"] | components["schemas"]["AskLabelHi"] | components["schemas"]["AskInspectLo"] | components["schemas"]["AskLabelLo"] | components["schemas"]["AskLabelFull"];
         };
         /**
          * Prices
@@ -1806,6 +2309,8 @@ export interface components {
             success_rate: number | null;
             /** Open Queries */
             open_queries: number;
+            /** Gold Rate */
+            gold_rate: number;
             /** Result */
             result: {
                 [key: string]: components["schemas"]["JsonValue"];
@@ -1872,6 +2377,8 @@ export interface components {
             result?: {
                 [key: string]: components["schemas"]["JsonValue"];
             } | null;
+            /** Gold Rate */
+            gold_rate?: number | null;
         };
         /**
          * Segment
@@ -1926,17 +2433,82 @@ export interface components {
             frames: string[];
         };
         /**
+         * Session
+         * @description A browser that is signed in.
+         */
+        Session: {
+            /** Id */
+            id: number;
+            /** Created At */
+            created_at: number;
+            /** Last Used At */
+            last_used_at: number | null;
+            /** Expires At */
+            expires_at: number;
+            /**
+             * Current
+             * @description Whether this is the session that asks.
+             */
+            current: boolean;
+        };
+        /**
+         * SessionList
+         * @description The caller's sessions, oldest first.
+         */
+        SessionList: {
+            /** Sessions */
+            sessions: components["schemas"]["Session"][];
+        };
+        /**
+         * Tally
+         * @description What answers come to. Gold queries are among them: they are work too, though no run pays for them.
+         */
+        Tally: {
+            /** Answers */
+            answers: number;
+            /** Units */
+            units: number;
+        };
+        /**
+         * Token
+         * @description A token that is good, without its secret.
+         */
+        Token: {
+            /** Id */
+            id: number;
+            /** Label */
+            label: string;
+            /** Created At */
+            created_at: number;
+            /**
+             * Last Used At
+             * @description To the minute; null if never.
+             */
+            last_used_at: number | null;
+        };
+        /**
          * TokenCreate
-         * @description An API token for a user.
+         * @description An API token for the caller, or, made by an administrator, for any user.
          */
         TokenCreate: {
-            /** User */
-            user: number;
+            /**
+             * User
+             * @description Whose; null for the caller's own.
+             */
+            user?: number | null;
             /**
              * Label
              * @default
              */
             label: string;
+        };
+        /**
+         * TokenList
+         * @description A user's tokens that are good, oldest first.
+         */
+        TokenList: {
+            /** Tokens */
+            tokens: components["schemas"]["Token"][];
         };
         /**
          * TokenPost
@@ -1962,6 +2534,16 @@ export interface components {
             role: "admin" | "learner" | "annotator" | "viewer";
             /** Created At */
             created_at: number;
+            /**
+             * Deactivated At
+             * @description Since when they may not call; null while they may.
+             */
+            deactivated_at: number | null;
+            /**
+             * Last Used At
+             * @description When they last called, to the minute.
+             */
+            last_used_at: number | null;
         };
         /**
          * UserCreate
@@ -1983,6 +2565,19 @@ export interface components {
         UserList: {
             /** Users */
             users: components["schemas"]["User"][];
+        };
+        /**
+         * UserPatch
+         * @description What may change in a user; absent fields stay as they are.
+         */
+        UserPatch: {
+            /** Role */
+            role?: ("admin" | "learner" | "annotator" | "viewer") | null;
+            /**
+             * Active
+             * @description False ends their sessions, tokens, links and leases; their answers stay.
+             */
+            active?: boolean | null;
         };
         /**
          * Vocabulary
@@ -3822,7 +4417,7 @@ export interface operations {
                     "application/json": components["schemas"]["Me"];
                 };
             };
-            /** @description Log in first */
+            /** @description Log in first; The login link was used before; The login link is too old; The account is deactivated */
             401: {
                 headers: {
                     [name: string]: unknown;
@@ -3902,62 +4497,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
-            };
-            /** @description Log in first */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not allowed; Refused from another site */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The request is not valid */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The store failed */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    me: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Me"];
-                };
             };
             /** @description Log in first */
             401: {
@@ -4140,7 +4679,7 @@ export interface operations {
             };
         };
     };
-    createLoginLink: {
+    getUser: {
         parameters: {
             query?: never;
             header?: never;
@@ -4150,6 +4689,175 @@ export interface operations {
             cookie?: never;
         };
         requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["User"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    patchUser: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["UserPatch"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["User"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The last administrator stays */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    createLoginLink: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["LoginLinkCreate"] | null;
+            };
+        };
         responses: {
             /** @description Successful Response */
             201: {
@@ -4180,6 +4888,223 @@ export interface operations {
             };
             /** @description Not found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The user is deactivated */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listTokens: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TokenList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getNumbers: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Numbers"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listNumbers: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NumbersList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4238,7 +5163,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description Not allowed; Refused from another site */
+            /** @description Not allowed */
             403: {
                 headers: {
                     [name: string]: unknown;
@@ -4249,6 +5174,15 @@ export interface operations {
             };
             /** @description Not found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The user is deactivated */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4332,6 +5266,660 @@ export interface operations {
             };
             /** @description Not found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    me: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Me"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    myNumbers: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Numbers"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    myTokens: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TokenList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    mySessions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    logoutEverywhere: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listGold: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GoldList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    addGold: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["GoldPost"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GoldList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not answered */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    retireGold: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+                item: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getPractice: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Practice"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    practice: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                query: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PracticeAnswer"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Feedback"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -19,6 +19,13 @@ export type Run = Schemas['Run'];
 export type Segment = Schemas['Segment'];
 export type Verdict = Schemas['InspectAnswer']['verdict'];
 export type Vocabulary = Schemas['Vocabulary'];
+export type Role = Schemas['User']['role'];
+export type User = Schemas['User'];
+export type Numbers = Schemas['Numbers'];
+export type Token = Schemas['Token'];
+export type Gold = Schemas['Gold'];
+export type Practice = Schemas['Practice'];
+export type Feedback = Schemas['Feedback'];
 export type Json = Schemas['JsonValue'];
 
 /** The kinds this page can answer; demonstrations are answered by programs. */

@@ -23,7 +23,7 @@ const awkward: Vocabulary = {
   ],
   actions: ['Left', 'skip', 'fire', 'noop'],
 };
-const MODES: Mode[] = [...ANSWERABLE, 'waiting'];
+const MODES: Mode[] = [...ANSWERABLE, 'waiting', 'feedback', 'between'];
 
 const press = (key: string, more: Partial<KeyPress> = {}): KeyPress => ({
   key,

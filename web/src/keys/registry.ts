@@ -37,13 +37,15 @@ export interface Binding {
 }
 type Group = 'Answer' | 'Player' | 'Task' | 'Page';
 
-export type Mode = AnswerableKind | 'waiting';
+export type Mode = AnswerableKind | 'waiting' | 'feedback' | 'between';
 
 /** The one list of keys: all that a mode answers to. A subgoal's or action's own key goes before a general one. */
 export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[] {
   const choices = vocabulary === null ? [] : choiceBindings(mode, vocabulary);
   const taken = new Set(choices.flatMap((binding) => binding.keys));
-  const rest = [...answerBindings(mode), ...(mode === 'waiting' ? [UNDO] : [...TASK, ...PLAYER]), HELP];
+  const practicing = mode === 'feedback' || mode === 'between';
+  const shared = practicing ? [] : mode === 'waiting' ? [UNDO] : [...TASK, ...PLAYER];
+  const rest = [...answerBindings(mode), ...shared, HELP];
   const free = rest.map((binding) => ({
     ...binding,
     keys: binding.keys.filter((key) => !taken.has(key)),
@@ -158,6 +160,15 @@ function answerBindings(mode: Mode): readonly Binding[] {
       ];
     case 'waiting':
       return [];
+    case 'feedback':
+      return [
+        { command: 'accept', keys: ['Enter'], label: 'Next question', group: 'Answer', once: true },
+        { command: 'undo', keys: ['u'], label: 'Answer this question again', group: 'Answer', once: true },
+        { command: 'previous-segment', keys: ['ArrowUp'], label: 'Label before', group: 'Answer' },
+        { command: 'next-segment', keys: ['ArrowDown'], label: 'Next label', group: 'Answer' },
+      ];
+    case 'between':
+      return [{ command: 'accept', keys: ['Enter'], label: 'Start practicing', group: 'Answer', once: true }];
   }
 }
 

@@ -1,0 +1,45 @@
+import type { Answerable, Feedback } from '../api/types';
+import { readable } from '../keys/registry';
+import { askedFrames, lastFrame, type Tape } from '../player/tape';
+
+export type Mark = Feedback['marks'][number];
+
+/** The frame a label is about. */
+export function frameOf(ask: Answerable, tape: Tape, mark: Mark): number {
+  if (ask.kind === 'inspect_full' || ask.kind === 'inspect_lo') return lastFrame(tape);
+  if (ask.kind !== 'label_hi') return askedFrames(tape)[mark.place] ?? lastFrame(tape);
+  return tape.stretches[ask.context.length + mark.place]?.first ?? tape.start;
+}
+
+/** What a label is about: "Segment 2", "State 5". */
+export function placeOf(ask: Answerable, mark: Mark): string {
+  if (ask.kind === 'inspect_full' || ask.kind === 'inspect_lo') return 'Verdict';
+  return `${ask.kind === 'label_hi' ? 'Segment' : 'State'} ${mark.place + 1}`;
+}
+
+/** A label in words; the end of a segment is one too. */
+export function labelWords(label: string | null): string {
+  if (label === null) return 'nothing';
+  if (label === '(done)') return 'done here';
+  if (label === '(not done)') return 'not done';
+  return readable(label);
+}
+
+export function choicesWords(right: readonly string[]): string {
+  return right.map(labelWords).join(' or ');
+}
+
+/** Which label to look at first: the first wrong one, if any is. */
+export function firstToSee(marks: readonly Mark[]): number {
+  return Math.max(
+    0,
+    marks.findIndex((mark) => !mark.is_right),
+  );
+}
+
+/** "Right", "2 of 5 right". */
+export function verdictWords(marks: readonly Mark[]): string {
+  const right = marks.filter((mark) => mark.is_right).length;
+  if (right === marks.length) return 'Right';
+  return marks.length === 1 ? 'Not right' : `${right} of ${marks.length} right`;
+}
