@@ -15,7 +15,7 @@ from server.database import Database
 from server.errors import StorageFailed
 from server.guard import Guard
 from server.live import Hub
-from server.routes import assignments, people, queries, runs, system
+from server.routes import assignments, people, queries, runs, system, watching
 from server.settings import Settings
 
 API = "/api/v1"
@@ -37,7 +37,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lambda app: _lifespan(app, chosen),
     )
     api = APIRouter(prefix=API)
-    for module in (runs, queries, assignments, people):
+    for module in (runs, queries, assignments, watching, people):
         api.include_router(module.router)
     app.include_router(api)
     app.include_router(system.router)
