@@ -16,7 +16,18 @@ from server.errors import StorageFailed
 from server.guard import Guard
 from server.live import Hub
 from server.practice import PracticeSet
-from server.routes import assignments, frames, gold, me, people, practice, queries, runs, system
+from server.routes import (
+    assignments,
+    frames,
+    gold,
+    me,
+    people,
+    practice,
+    queries,
+    runs,
+    system,
+    watching,
+)
 from server.settings import Settings
 
 API = "/api/v1"
@@ -38,7 +49,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lambda app: _lifespan(app, chosen),
     )
     api = APIRouter(prefix=API)
-    for module in (runs, queries, assignments, frames, people, me, gold, practice):
+    for module in (runs, queries, assignments, watching, frames, people, me, gold, practice):
         api.include_router(module.router)
     app.include_router(api)
     app.include_router(system.router)

@@ -1,4 +1,4 @@
-"""Which query an annotator gets next: by priority, then the episode it last answered, then age.
+"""Which query an annotator gets next: by its run's priority, its own, the episode last answered, then age.
 
 What follows up on somebody's answer is kept for them for a while, as long as they are at work.
 """
@@ -53,11 +53,16 @@ class Offer:
     @classmethod
     def among(cls, offered: Select[Any]) -> "Offer":
         """Return the statements over some choice of open queries, best first."""
-        last = (queries.c.run_id == bindparam("last_run"), queries.c.episode == bindparam("last_episode"))
+        last = (
+            queries.c.run_id == bindparam("last_run"),
+            queries.c.episode == bindparam("last_episode"),
+            queries.c.run_priority >= bindparam("run_priority"),
+            queries.c.priority >= bindparam("priority"),
+        )
         return cls(
             offered,
             offered.limit(1),
-            offered.where(*last, queries.c.priority >= bindparam("priority")).limit(1),
+            offered.where(*last).limit(1),
             offered.limit(1).with_for_update(skip_locked=True, of=queries),
         )
 
@@ -84,7 +89,8 @@ def take(tx: Tx, taker: Taker) -> int | None:
         return None
     last = tx.conn.execute(_LAST_ANSWERED, known).one_or_none()
     if last is not None:
-        known |= {"last_run": last.run_id, "last_episode": last.episode, "priority": chosen.priority}
+        known |= {"last_run": last.run_id, "last_episode": last.episode}
+        known |= {"run_priority": chosen.run_priority, "priority": chosen.priority}
         chosen = tx.conn.execute(offer.follow_up, known).one_or_none() or chosen
     if tx.one_writer:
         return int(chosen.id)
@@ -141,9 +147,9 @@ def _offered(kinds: Kinds | None, one_run: bool) -> Select[Any]:
     skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == bindparam("user"))
     running = exists().where(runs.c.id == queries.c.run_id, runs.c.state == "running")
     offered = (
-        select(queries.c.id, queries.c.priority)
+        select(queries.c.id, queries.c.run_priority, queries.c.priority)
         .where(IS_OPEN, running, ~skipped, ~_kept_for_another())
-        .order_by(queries.c.priority.desc(), queries.c.id)
+        .order_by(queries.c.run_priority.desc(), queries.c.priority.desc(), queries.c.id)
     )
     if kinds is not None:
         offered = offered.where(queries.c.kind.in_(kinds))

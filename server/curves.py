@@ -1,5 +1,6 @@
 """Curves and costs of a run: success by episode and by cost, out of the reported episodes and the ledger alone."""
 
+from bisect import bisect_right
 from collections import defaultdict, deque
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -89,8 +90,8 @@ def _cumulative(reported: Sequence[int], amounts: Iterable[tuple[int, float]]) -
     return sums
 
 
-def curves(tx: Tx, run: str) -> wire.Curves:
-    """Return success and cumulative cost, a row per reported episode."""
+def curves(tx: Tx, run: str, after: int = -1) -> wire.Curves:
+    """Return success and cumulative cost, a row per reported episode past one."""
     runs.find(tx, run)
     results = _results(tx, run)
     reported, tests = [result.episode for result in results], [result.test_success for result in results]
@@ -98,18 +99,19 @@ def curves(tx: Tx, run: str) -> wire.Curves:
     by_kind: dict[wire.Kind, list[tuple[int, float]]] = defaultdict(list)
     for entry in spent:
         by_kind[entry.kind].append((entry.episode, entry.units))
+    first = bisect_right(reported, after)
     return wire.Curves(
-        episode=reported,
-        success_rate=trailing(tests),
-        test_success=tests,
-        cost=_units(_cumulative(reported, ((entry.episode, entry.units) for entry in spent))),
-        lo_cost=_units(_cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent))),
-        seconds=_cumulative(reported, ((entry.episode, entry.seconds) for entry in spent)),
-        active_seconds=_cumulative(reported, ((entry.episode, entry.active_seconds) for entry in spent)),
-        cost_by_kind={kind: _units(_cumulative(reported, by_kind[kind])) for kind in KINDS},
-        hi_labels=[result.hi_labels for result in results],
-        lo_samples=list(accumulate(result.train_steps for result in results)),
-        learner_seconds=list(accumulate(result.seconds for result in results)),
+        episode=reported[first:],
+        success_rate=trailing(tests)[first:],
+        test_success=tests[first:],
+        cost=_units(_cumulative(reported, ((entry.episode, entry.units) for entry in spent)))[first:],
+        lo_cost=_units(_cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent)))[first:],
+        seconds=_cumulative(reported, ((entry.episode, entry.seconds) for entry in spent))[first:],
+        active_seconds=_cumulative(reported, ((entry.episode, entry.active_seconds) for entry in spent))[first:],
+        cost_by_kind={kind: _units(_cumulative(reported, by_kind[kind]))[first:] for kind in KINDS},
+        hi_labels=[result.hi_labels for result in results[first:]],
+        lo_samples=list(accumulate(result.train_steps for result in results))[first:],
+        learner_seconds=list(accumulate(result.seconds for result in results))[first:],
     )
 
 

@@ -1,15 +1,16 @@
 """Who is at work: annotators who asked of late or hold a lease, so that a bot can leave the queries to them."""
 
+from collections import defaultdict
 from collections.abc import Sequence
 from typing import Any
 
-from sqlalchemy import and_, bindparam, exists, false, func, literal, or_, select
+from sqlalchemy import Row, and_, bindparam, exists, false, func, literal, or_, select
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.sql.elements import ColumnElement
 
 from server import wire
 from server.database import Tx
-from server.tables import IS_LIVE, assignments, presence, queries, skips
+from server.tables import IS_LIVE, assignments, presence, queries, runs, skips, users
 
 REFRESH_SECONDS = 3.0
 
@@ -74,3 +75,48 @@ def _takes(row: Any) -> ColumnElement[bool]:
     if row.kinds is not None:
         takes.append(queries.c.kind.in_(row.kinds.split(",")))
     return and_(*takes)
+
+
+def at_work(tx: Tx, presence_seconds: float, lease_seconds: float, run: str | None) -> wire.AtWorkList:
+    """Return who asked for work of late or holds a query, bots too; of one run, or of all."""
+    held = _held(tx, lease_seconds)
+    names = select(users.c.id, users.c.name, presence).outerjoin(presence, presence.c.user_id == users.c.id)
+    there = or_(presence.c.asked_at > tx.now - presence_seconds, users.c.id.in_(list(held)))
+    found = [_at_work(row, held.get(row.id, [])) for row in tx.conn.execute(names.where(there))]
+    chosen = [one for one in found if run is None or _works_on(one, run)]
+    return wire.AtWorkList(annotators=sorted(chosen, key=lambda one: (-one.seen_at, one.annotator)))
+
+
+def _held(tx: Tx, lease_seconds: float) -> dict[int, list[tuple[float, wire.Holding]]]:
+    """Return what each user holds, oldest first, each with when its lease was last taken or renewed."""
+    live = (
+        select(assignments, queries.c.run_id, queries.c.kind, queries.c.episode)
+        .join(queries, queries.c.id == assignments.c.query_id)
+        .join(runs, runs.c.id == queries.c.run_id)
+        .where(IS_LIVE, assignments.c.expires_at > tx.now, runs.c.gold_of.is_(None))
+        .order_by(assignments.c.id)
+    )
+    held: dict[int, list[tuple[float, wire.Holding]]] = defaultdict(list)
+    for row in tx.conn.execute(live):
+        holding = wire.Holding(
+            query=row.query_id, run=row.run_id, kind=row.kind, episode=row.episode, leased_at=row.leased_at
+        )
+        held[row.user_id].append((max(row.leased_at, row.expires_at - lease_seconds), holding))
+    return held
+
+
+def _at_work(row: Row[Any], held: Sequence[tuple[float, wire.Holding]]) -> wire.AtWork:
+    return wire.AtWork(
+        annotator=row.name,
+        run=row.run_id,
+        kinds=row.kinds.split(",") if row.kinds else None,
+        seen_at=max([row.asked_at or 0.0, *(renewed_at for renewed_at, _ in held)]),
+        holds=[holding for _, holding in held],
+    )
+
+
+def _works_on(one: wire.AtWork, run: str) -> bool:
+    """Say whether somebody holds a query of a run, or waits for one."""
+    if one.holds:
+        return any(holding.run == run for holding in one.holds)
+    return one.run in (None, run)

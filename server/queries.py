@@ -150,7 +150,7 @@ def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_
         prices = wire.Prices.model_validate_json(run_row.prices)
         reserves = [kinds.reserve(one.ask, prices) for one in new]
         money.reserve(tx, runs.account(run_row), sum(reserves))
-        ids = _insert(tx, run, new, body.priority, reserves)
+        ids = _insert(tx, run_row, new, body.priority, reserves)
         known |= {one.key: (query, one.digest) for one, query in zip(new, ids, strict=True)}
         tx.wake(live.QUEUE)
     rows = tx.conn.execute(QUERIES.where(queries.c.id.in_([known[one.key][0] for one in contents]))).all()
@@ -200,16 +200,17 @@ def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Cont
         )
 
 
-def _insert(tx: Tx, run: str, new: Sequence[Content], priority: int, reserves: Sequence[int]) -> list[int]:
+def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, reserves: Sequence[int]) -> list[int]:
     """Store new queries and their events, many at once; returns their ids in the same order."""
     rows = [
         {
-            "run_id": run,
+            "run_id": run_row.id,
             "episode": one.ask.episode,
             "ordinal": one.ask.ordinal,
             "kind": one.ask.kind,
             "state": "open",
             "priority": priority,
+            "run_priority": run_row.priority,
             "ask": one.text,
             "digest": one.digest,
             "reserve": reserve,
@@ -222,7 +223,7 @@ def _insert(tx: Tx, run: str, new: Sequence[Content], priority: int, reserves: S
     ids = [int(query) for query in tx.conn.execute(_INSERT, rows).scalars()]
     for query, one in zip(ids, new, strict=True):
         data = {"query": query, "kind": one.ask.kind, "episode": one.ask.episode, "ordinal": one.ask.ordinal}
-        events.add(tx, run, "asked", data)
+        events.add(tx, run_row.id, "asked", data)
     return ids
 
 

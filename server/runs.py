@@ -61,6 +61,7 @@ def of_row(row: Row[Any]) -> wire.Run:
         reserved=to_units(row.reserved),
         spent=to_units(row.spent),
         episodes=row.episodes,
+        priority=row.priority,
         episodes_done=row.episodes_done,
         success_rate=row.success_rate,
         open_queries=row.open_queries,
@@ -107,12 +108,6 @@ def view(tx: Tx, run: str) -> wire.Run:
     return of_row(_one(tx, _VIEW, run))
 
 
-def newest(tx: Tx, limit: int) -> wire.RunList:
-    """List runs, newest first."""
-    rows = tx.conn.execute(RUNS.order_by(runs.c.number.desc()).limit(limit)).all()
-    return wire.RunList(runs=[of_row(row) for row in rows])
-
-
 def create(tx: Tx, wanted: wire.RunCreate, user: int) -> wire.Run:
     """Create a run."""
     for field in ("subgoals", "actions"):
@@ -151,6 +146,9 @@ def patch(tx: Tx, run: str, wanted: wire.RunPatch) -> wire.Run:
         changes["name"] = wanted.name
     if "result" in sent:
         changes["result"] = None if wanted.result is None else canonical.text(wanted.result)
+    if wanted.priority is not None and wanted.priority != row.priority:
+        changes["priority"] = wanted.priority
+        tx.conn.execute(update(queries).where(queries.c.run_id == run).values(run_priority=wanted.priority))
     if "budget" in sent:
         changes["budget"] = _checked_budget(row, wanted.budget)
     if wanted.gold_rate is not None:

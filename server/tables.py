@@ -88,6 +88,7 @@ runs = Table(
     Column("spent", BigInteger, nullable=False),
     Column("reserved", BigInteger, nullable=False),
     Column("episodes", Integer),
+    Column("priority", Integer, nullable=False, server_default=text("0")),
     Column("result", Text),
     Column("created_at", Float, nullable=False),
     Column("finished_at", Float),
@@ -114,6 +115,8 @@ queries = Table(
     Column("kind", Text, nullable=False),
     Column("state", Text, nullable=False),
     Column("priority", Integer, nullable=False),
+    # The run's, kept here too: the next query is found by one index, without looking at any run.
+    Column("run_priority", Integer, nullable=False, server_default=text("0")),
     Column("ask", Text, nullable=False),
     Column("digest", Text, nullable=False),
     Column("reserve", BigInteger, nullable=False),
@@ -132,12 +135,14 @@ queries = Table(
 )
 Index(
     "ix_queries_next",
+    queries.c.run_priority.desc(),
     queries.c.priority.desc(),
     queries.c.id,
     sqlite_where=text("state = 'open'"),
     postgresql_where=text("state = 'open'"),
 )
 Index("ix_queries_run_state", queries.c.run_id, queries.c.state, queries.c.episode)
+Index("ix_queries_run", queries.c.run_id, queries.c.id)
 
 assignments = Table(
     "assignments",
@@ -218,6 +223,7 @@ ledger = Table(
         name="sign",
     ),
     Index("ix_ledger_run", "run_id", "episode", "kind"),
+    Index("ix_ledger_run_id", "run_id", "id"),
     sqlite_autoincrement=True,
 )
 

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Header, Query, Request
 from fastapi.responses import StreamingResponse
 
-from server import curves, episodes, errors, events, runs, wire
+from server import curves, episodes, errors, events, run_list, runs, wire
 from server.access import AnyoneCalls, LearnerCalls
 from server.context import Ctx
 from server.jsonbody import JsonRoute
@@ -21,9 +21,22 @@ async def create_run(body: wire.RunCreate, context: Ctx, caller: LearnerCalls) -
 
 
 @router.get("", operation_id="listRuns")
-async def list_runs(context: Ctx, _: AnyoneCalls, limit: Annotated[int, Query(ge=1, le=1_000)] = 200) -> wire.RunList:
-    """List runs, newest first."""
-    return await context.db.read(lambda tx: runs.newest(tx, limit))
+async def list_runs(
+    context: Ctx,
+    _: AnyoneCalls,
+    text: Annotated[
+        str, Query(max_length=200, pattern=r"^[^\x00]*$", description="Words in the name, algorithm, domain or id.")
+    ] = "",
+    state: wire.RunState | None = None,
+    run: Annotated[list[str] | None, Query(max_length=100, description="Only these runs, by id.")] = None,
+    sort: wire.RunSort = "newest",
+    descending: bool = True,
+    offset: Annotated[int, Query(ge=0, le=2**31 - 1)] = 0,
+    limit: Annotated[int, Query(ge=1, le=1_000)] = 200,
+) -> wire.RunList:
+    """List runs, newest first unless sorted otherwise."""
+    chosen = run_list.Filter(text, state, tuple(run or ()), sort, descending, offset, limit)
+    return await context.db.read(lambda tx: run_list.listed(tx, chosen))
 
 
 @router.get("/{run}", operation_id="getRun", responses=refusals(errors.NotFound))
@@ -36,7 +49,7 @@ async def get_run(run: str, context: Ctx, _: AnyoneCalls) -> wire.Run:
     "/{run}", operation_id="patchRun", responses=refusals(errors.NotFound, errors.RunFinished, errors.BudgetTooLow)
 )
 async def patch_run(run: str, body: wire.RunPatch, context: Ctx, _: LearnerCalls) -> wire.Run:
-    """Rename, pause, resume or finish a run, or set its budget. Finishing cancels what is still open."""
+    """Rename, pause, resume or finish a run, or set its budget or priority. Finishing cancels what is still open."""
     return await context.db.write(lambda tx: runs.patch(tx, run, body))
 
 
@@ -51,9 +64,14 @@ async def report_episodes(run: str, body: wire.EpisodeList, context: Ctx, _: Lea
 
 
 @router.get("/{run}/curves", operation_id="getCurves", responses=refusals(errors.NotFound))
-async def get_curves(run: str, context: Ctx, _: AnyoneCalls) -> wire.Curves:
+async def get_curves(
+    run: str,
+    context: Ctx,
+    _: AnyoneCalls,
+    after: Annotated[int, Query(ge=-1, le=2**31 - 1, description="Only the episodes past this one.")] = -1,
+) -> wire.Curves:
     """Return success and cumulative cost by episode."""
-    return await context.db.read(lambda tx: curves.curves(tx, run))
+    return await context.db.read(lambda tx: curves.curves(tx, run, after))
 
 
 @router.get("/{run}/costs", operation_id="getCosts", responses=refusals(errors.NotFound))

@@ -1,5 +1,6 @@
 """Curves and costs, out of the ledger and the reported episodes alone."""
 
+import json
 import time
 
 import pytest
@@ -7,7 +8,7 @@ from sqlalchemy import text
 
 from server.curves import _cumulative, _first_at, trailing
 from server.database import Database
-from tests.server.kit import Json, Service, in_process, query
+from tests.server.kit import Json, Service, in_process, query, right_answer
 
 
 def result(episode: int, passed: bool | None = True, **more: object) -> Json:
@@ -123,7 +124,7 @@ def filled(service: Service, run: str, n_episodes: int, per_episode: int) -> Non
     """Fill a run with answered queries, by the shortest way."""
     ask = (
         "INSERT INTO queries (run_id, episode, ordinal, kind, state, priority, ask, digest, reserve, revision, used, "
-        "created_at) VALUES (:run, :e, :o, 'label_lo', 'open', 0, '{}', '', 0, 0, :no, 0)"
+        "created_at) VALUES (:run, :e, :o, 'label_lo', 'open', 0, :ask, '', 0, 0, :no, 0)"
     )
     lease = (
         "INSERT INTO assignments (query_id, user_id, token, state, deferring, leased_at, expires_at, ended_at) "
@@ -131,7 +132,7 @@ def filled(service: Service, run: str, n_episodes: int, per_episode: int) -> Non
     )
     answer = (
         "INSERT INTO answers (run_id, query_id, assignment_id, user_id, content, digest, revision, units, seconds, "
-        "created_at) SELECT :run, query_id, id, 1, '{}', '', 0, 1000000, 1, 0 FROM assignments"
+        "created_at) SELECT :run, query_id, id, 1, :content, '', 0, 1000000, 1, 0 FROM assignments"
     )
     charge = (
         "INSERT INTO ledger (run_id, query_id, answer_id, entry, kind, episode, units, lo_units, seconds, created_at) "
@@ -140,10 +141,16 @@ def filled(service: Service, run: str, n_episodes: int, per_episode: int) -> Non
     )
 
     def fill(tx: object) -> None:
-        rows = [{"run": run, "e": e, "o": o, "no": False} for e in range(n_episodes) for o in range(per_episode)]
+        asked = query("label_lo", n_actions=20)
+        content = json.dumps(right_answer(asked))
+        rows = [
+            {"run": run, "e": e, "o": o, "no": False, "ask": json.dumps(asked)}
+            for e in range(n_episodes)
+            for o in range(per_episode)
+        ]
         tx.conn.execute(text(ask), rows)
         for statement in (lease, answer, charge):
-            tx.conn.execute(text(statement), {"run": run, "no": False})
+            tx.conn.execute(text(statement), {"run": run, "no": False, "content": content})
 
     service.db.write_now(fill)
 

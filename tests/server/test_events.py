@@ -112,3 +112,23 @@ def test_an_annotator_who_hangs_up_is_given_nothing(real: Service) -> None:
 
 def test_events_of_no_run_are_not_found(real: Service) -> None:
     real.viewer.get("/runs/nowhere/events", 404)
+
+
+def test_whoever_looks_at_all_runs_hears_that_one_changed(real: Service) -> None:
+    run = real.learner.create_run()
+    heard: list[int] = []
+
+    def listen() -> None:
+        with real.client.stream("GET", f"{API}/events", headers=real.viewer.headers) as reply:
+            for line in reply.iter_lines():
+                if line.startswith("data: "):
+                    heard.append(json.loads(line.removeprefix("data: "))["newest"])
+                    return
+
+    listener = threading.Thread(target=listen)
+    listener.start()
+    time.sleep(0.5)
+    assert heard == [], "nothing has changed yet"
+    real.learner.ask(run, query())
+    listener.join(10)
+    assert heard == [events(real.viewer, run, 2)[-1]["id"]]

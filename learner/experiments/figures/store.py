@@ -8,7 +8,7 @@ from typing import Protocol
 from learner.client import Client
 from learner.config import TrainConfig
 from learner.experiments.figures.data import RunCurves
-from server import curves, runs, wire
+from server import curves, run_list, wire
 from server.database import Database
 
 MOST_RUNS = 100_000
@@ -31,7 +31,7 @@ class _Store:
         self._db = db
 
     def runs(self) -> list[wire.Run]:
-        return self._db.read_now(lambda tx: runs.newest(tx, MOST_RUNS)).runs
+        return self._db.read_now(lambda tx: run_list.listed(tx, run_list.Filter(limit=MOST_RUNS))).runs
 
     def curves(self, run: str) -> wire.Curves:
         return self._db.read_now(lambda tx: curves.curves(tx, run))

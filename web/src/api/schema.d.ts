@@ -10,7 +10,7 @@ export interface paths {
         };
         /**
          * List Runs
-         * @description List runs, newest first.
+         * @description List runs, newest first unless sorted otherwise.
          */
         get: operations["listRuns"];
         put?: never;
@@ -44,7 +44,7 @@ export interface paths {
         head?: never;
         /**
          * Patch Run
-         * @description Rename, pause, resume or finish a run, or set its budget. Finishing cancels what is still open.
+         * @description Rename, pause, resume or finish a run, or set its budget or priority. Finishing cancels what is still open.
          */
         patch: operations["patchRun"];
         trace?: never;
@@ -311,6 +311,126 @@ export interface paths {
          * @description Take an answer back that the learner has not used: it is refunded, and its query is leased again.
          */
         post: operations["retract"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/query-rows": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Query Rows
+         * @description List a run's queries without their trajectories, newest first, a page at a time.
+         */
+        get: operations["listQueryRows"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/ledger": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Ledger
+         * @description List a run's charges and refunds, newest first, a page at a time, with the sums of all pages.
+         */
+        get: operations["listLedger"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/queries/{query}/history": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get History
+         * @description Return every time a query was handed out, what came of it, and what it cost.
+         */
+        get: operations["getHistory"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/annotators": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List At Work
+         * @description Say who is at work, in one run or in all: who asked for a query of late or holds one.
+         */
+        get: operations["listAtWork"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Run
+         * @description Download a run's curves, ledger or queries as CSV or JSON Lines.
+         */
+        get: operations["exportRun"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Stream Changes
+         * @description Stream that something changed in some run, at most once a second.
+         */
+        get: operations["streamChanges"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -1389,6 +1509,47 @@ export interface components {
             assignments: components["schemas"]["Assignment"][];
         };
         /**
+         * AtWork
+         * @description An annotator who asked for work of late or holds a query.
+         */
+        AtWork: {
+            /** Annotator */
+            annotator: string;
+            /**
+             * Run
+             * @description The run asked for; null for any.
+             */
+            run: string | null;
+            /**
+             * Kinds
+             * @description The kinds asked for; null for any.
+             */
+            kinds: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full")[] | null;
+            /** Seen At */
+            seen_at: number;
+            /** Holds */
+            holds: components["schemas"]["Holding"][];
+        };
+        /**
+         * AtWorkList
+         * @description Who is at work, the one seen last first.
+         */
+        AtWorkList: {
+            /** Annotators */
+            annotators: components["schemas"]["AtWork"][];
+        };
+        /**
+         * Change
+         * @description Something changed in some run, as sent by server-sent events.
+         */
+        Change: {
+            /**
+             * Newest
+             * @description The newest event of any run.
+             */
+            newest: number;
+        };
+        /**
          * CostOfKind
          * @description The ledger's sum for one kind of query.
          */
@@ -1702,6 +1863,25 @@ export interface components {
             segments: components["schemas"]["DemoSegment"][];
         };
         /**
+         * Holding
+         * @description A query somebody holds right now.
+         */
+        Holding: {
+            /** Query */
+            query: number;
+            /** Run */
+            run: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /** Episode */
+            episode: number;
+            /** Leased At */
+            leased_at: number;
+        };
+        /**
          * InspectAnswer
          * @description Pass or Fail, for Inspect_FULL and Inspect_LO.
          */
@@ -1867,6 +2047,79 @@ export interface components {
             ahead: boolean;
         };
         /**
+         * LedgerEntry
+         * @description One line of the ledger: a charge, or a refund with its amounts below zero.
+         */
+        LedgerEntry: {
+            /** Id */
+            id: number;
+            /** At */
+            at: number;
+            /**
+             * Entry
+             * @enum {string}
+             */
+            entry: "charge" | "refund";
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /** Query */
+            query: number;
+            /** Episode */
+            episode: number;
+            /** Ordinal */
+            ordinal: number;
+            /** Annotator */
+            annotator: string;
+            /** Units */
+            units: number;
+            /** Lo Units */
+            lo_units: number;
+            /** Seconds */
+            seconds: number;
+            /**
+             * Balance
+             * @description What the run had spent after this line.
+             */
+            balance: number;
+        };
+        /**
+         * LedgerPage
+         * @description A page of a run's ledger, newest first, and the sums of all its pages.
+         */
+        LedgerPage: {
+            /** Entries */
+            entries: components["schemas"]["LedgerEntry"][];
+            /**
+             * Total
+             * @description How many lines there are on all pages.
+             */
+            total: number;
+            /**
+             * Newest
+             * @description The newest of them on any page.
+             */
+            newest: number | null;
+            /**
+             * Oldest
+             * @description The oldest of them on any page.
+             */
+            oldest: number | null;
+            /** Units */
+            units: number;
+            /** Lo Units */
+            lo_units: number;
+            /** Seconds */
+            seconds: number;
+            /**
+             * Spent
+             * @description What the run's account says; without a filter, `units` is the same.
+             */
+            spent: number;
+        };
+        /**
          * Login
          * @description A one-time code out of a login link.
          */
@@ -2026,6 +2279,57 @@ export interface components {
              * @description The share of right labels among those of gold queries.
              */
             agreement: number | null;
+        };
+        /**
+         * PastAnswer
+         * @description An answer as it was given; never changed.
+         */
+        PastAnswer: {
+            /** Id */
+            id: number;
+            /** Content */
+            content: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            /** At */
+            at: number;
+            /**
+             * Units
+             * @description What it was charged; 0 if it came too late.
+             */
+            units: number;
+            /** Seconds */
+            seconds: number;
+            /**
+             * Fate
+             * @enum {string}
+             */
+            fate: "counts" | "retracted" | "late";
+        };
+        /**
+         * PastAssignment
+         * @description One time a query was handed out, and how that ended.
+         */
+        PastAssignment: {
+            /** Id */
+            id: number;
+            /** Annotator */
+            annotator: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "live" | "answered" | "skipped" | "released" | "expired" | "cancelled";
+            /**
+             * Reason
+             * @description What was said when it was skipped or given back.
+             */
+            reason: string | null;
+            /** Leased At */
+            leased_at: number;
+            /** Expires At */
+            expires_at: number;
+            /** Ended At */
+            ended_at: number | null;
+            answer: components["schemas"]["PastAnswer"] | null;
         };
         /**
          * Practice
@@ -2199,12 +2503,105 @@ export interface components {
             active_seconds: number | null;
         };
         /**
+         * QueryHistory
+         * @description Everything that became of a query, oldest first, and its neighbors in its run.
+         */
+        QueryHistory: {
+            /** Assignments */
+            assignments: components["schemas"]["PastAssignment"][];
+            /** Ledger */
+            ledger: components["schemas"]["LedgerEntry"][];
+            /**
+             * Previous
+             * @description The query asked before it in the run, by episode and ordinal.
+             */
+            previous: number | null;
+            /** Next */
+            next: number | null;
+        };
+        /**
          * QueryList
          * @description Queries of a run, newest first; `before` the last one's id goes on.
          */
         QueryList: {
             /** Queries */
             queries: components["schemas"]["Query"][];
+        };
+        /**
+         * QueryPage
+         * @description A page of a run's queries, newest first.
+         */
+        QueryPage: {
+            /** Rows */
+            rows: components["schemas"]["QueryRow"][];
+            /**
+             * Total
+             * @description How many there are on all pages.
+             */
+            total: number;
+            /**
+             * Newest
+             * @description The newest of them on any page.
+             */
+            newest: number | null;
+            /**
+             * Oldest
+             * @description The oldest of them on any page.
+             */
+            oldest: number | null;
+        };
+        /**
+         * QueryRow
+         * @description A query in a table: what was asked and what came of it, without the trajectory.
+         */
+        QueryRow: {
+            /** Id */
+            id: number;
+            /** Episode */
+            episode: number;
+            /** Ordinal */
+            ordinal: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "open" | "leased" | "answered" | "cancelled";
+            /** Priority */
+            priority: number;
+            /** Question */
+            question: string;
+            /** Created At */
+            created_at: number;
+            /** Answered At */
+            answered_at: number | null;
+            /** Answer */
+            answer: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            /** Used */
+            used: boolean;
+            /**
+             * Annotator
+             * @description Who answered, or who holds it now.
+             */
+            annotator: string | null;
+            /** Units */
+            units: number | null;
+            /** Seconds */
+            seconds: number | null;
+            /**
+             * Skips
+             * @description How often it was skipped.
+             */
+            skips: number;
+            /**
+             * Expiries
+             * @description How many of its leases ran out.
+             */
+            expiries: number;
         };
         /**
          * Receipt
@@ -2298,6 +2695,11 @@ export interface components {
             reserved: number;
             /** Spent */
             spent: number;
+            /**
+             * Priority
+             * @description Queries of a run with a higher one are handed out first.
+             */
+            priority: number;
             /** Episodes */
             episodes: number | null;
             /** Episodes Done */
@@ -2353,11 +2755,16 @@ export interface components {
         };
         /**
          * RunList
-         * @description Runs, newest first.
+         * @description A page of runs.
          */
         RunList: {
             /** Runs */
             runs: components["schemas"]["Run"][];
+            /**
+             * Total
+             * @description How many there are on all pages.
+             */
+            total: number;
         };
         /**
          * RunPatch
@@ -2370,6 +2777,11 @@ export interface components {
             state?: ("running" | "paused" | "finished") | null;
             /** Budget */
             budget?: number | null;
+            /**
+             * Priority
+             * @description Queries of a run with a higher one are handed out first.
+             */
+            priority?: number | null;
             /**
              * Result
              * @description What the learner reports at its end.
@@ -2611,6 +3023,14 @@ export interface operations {
     listRuns: {
         parameters: {
             query?: {
+                /** @description Words in the name, algorithm, domain or id. */
+                text?: string;
+                state?: ("running" | "paused" | "finished") | null;
+                /** @description Only these runs, by id. */
+                run?: string[] | null;
+                sort?: "newest" | "name" | "algorithm" | "episodes" | "success" | "cost";
+                descending?: boolean;
+                offset?: number;
                 limit?: number;
             };
             header?: never;
@@ -3009,7 +3429,10 @@ export interface operations {
     };
     getCurves: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description Only the episodes past this one. */
+                after?: number;
+            };
             header?: never;
             path: {
                 run: string;
@@ -4146,6 +4569,420 @@ export interface operations {
             };
             /** @description Send application/json */
             415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listQueryRows: {
+        parameters: {
+            query?: {
+                state?: ("open" | "leased" | "answered" | "cancelled") | null;
+                kind?: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full") | null;
+                episode?: number | null;
+                annotator?: string | null;
+                /** @description Only rows older than this one. */
+                before?: number | null;
+                /** @description The rows just newer than this one. */
+                after?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["QueryPage"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listLedger: {
+        parameters: {
+            query?: {
+                kind?: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full") | null;
+                entry?: ("charge" | "refund") | null;
+                /** @description Only rows older than this one. */
+                before?: number | null;
+                /** @description The rows just newer than this one. */
+                after?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LedgerPage"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getHistory: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                query: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["QueryHistory"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listAtWork: {
+        parameters: {
+            query?: {
+                run?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AtWorkList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    exportRun: {
+        parameters: {
+            query?: {
+                table?: "curves" | "ledger" | "queries";
+                format?: "csv" | "jsonl";
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The table, a row a line. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": unknown;
+                    "application/jsonl": unknown;
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    streamChanges: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Server-sent events; each `data` is a Change. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/event-stream": unknown;
+                    "application/json": components["schemas"]["Change"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };

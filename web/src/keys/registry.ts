@@ -90,6 +90,9 @@ const PLAYER: readonly Binding[] = [
   { command: 'faster', keys: ['=', '+'], label: 'Faster', group: 'Player' },
 ];
 
+/** What works where a trajectory is only watched. */
+export const WATCH_BINDINGS: readonly Binding[] = [...PLAYER, HELP];
+
 const ACCEPT: readonly Binding[] = [
   {
     command: 'accept',

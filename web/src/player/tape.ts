@@ -1,4 +1,5 @@
 import type { Json, Segment } from '../api/types';
+import type { Player } from './player';
 
 /** One segment on the tape: frames `first` to `last`, both included. */
 export interface Stretch {
@@ -19,6 +20,13 @@ export interface Tape {
   readonly stretches: readonly Stretch[];
   /** The frame where the asked segments begin. */
   readonly start: number;
+}
+
+/** A tape in a player. */
+export interface Playable {
+  readonly tape: Tape;
+  readonly player: Player;
+  seek(frame: number): void;
 }
 
 export function buildTape(context: readonly Segment[], asked: readonly Segment[]): Tape {

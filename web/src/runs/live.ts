@@ -1,7 +1,9 @@
 const EVENTS = ['asked', 'answered', 'retracted', 'used', 'cancelled', 'episode', 'run'] as const;
+export type RunEvent = (typeof EVENTS)[number];
 
 export interface Live {
-  changed(): void;
+  /** Something happened, or, with null, may have while nobody listened. */
+  changed(event: RunEvent | null): void;
   connected(isConnected: boolean): void;
 }
 
@@ -10,10 +12,18 @@ export function watch(run: string, live: Live): () => void {
   const source = new EventSource(`/api/v1/runs/${encodeURIComponent(run)}/events`);
   source.onopen = () => {
     live.connected(true);
-    live.changed(); // what happened while nobody listened
+    live.changed(null);
   };
   source.onerror = () => live.connected(false);
-  for (const event of EVENTS) source.addEventListener(event, () => live.changed());
+  for (const event of EVENTS) source.addEventListener(event, () => live.changed(event));
+  return () => source.close();
+}
+
+/** Hear that something changed in some run, at most once a second, until the returned function is called. */
+export function watchAll(changed: () => void): () => void {
+  const source = new EventSource('/api/v1/events');
+  source.onopen = changed;
+  source.addEventListener('changed', changed);
   return () => source.close();
 }
 

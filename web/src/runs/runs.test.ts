@@ -1,26 +1,185 @@
 import { describe, expect, it, vi } from 'vitest';
-import type { Curves } from '../api/types';
+import type { Curves, Run } from '../api/types';
+import { buildTape } from '../player/tape';
 import { ago, count, percent, seconds } from '../ui/format';
+import { acrossOf, bandOf, grouped, joined, stackOf, successOf } from './curves';
 import { throttled } from './live';
-import { sampleRows, stack } from './series';
+import { labelsOf } from './replay.svelte';
+import { wordsOfEnding } from './words';
 
-describe('the cost chart', () => {
-  const curves = {
+function curvesWith(more: Partial<Curves>): Curves {
+  const none = {
+    hier_demo: [],
+    inspect_full: [],
+    label_hi: [],
+    inspect_lo: [],
+    label_lo: [],
+    label_full: [],
+  };
+  return {
+    episode: [],
+    success_rate: [],
+    test_success: [],
+    cost: [],
+    lo_cost: [],
+    seconds: [],
+    cost_by_kind: none,
+    hi_labels: [],
+    lo_samples: [],
+    learner_seconds: [],
+    ...more,
+  };
+}
+
+function runWith(more: Partial<Run>): Run {
+  return {
+    id: '0',
+    name: 'a run',
+    algorithm: 'hg-dagger',
+    seed: 0,
+    config: { preset: 'paper', seed: 0 },
+    prices: {},
+    episodes: 500,
+    state: 'running',
+    vocabulary: { domain: 'maze' },
+    ...more,
+  } as unknown as Run;
+}
+
+describe('the curves of a run', () => {
+  const curves = curvesWith({
     episode: [0, 1],
-    cost_by_kind: { label_lo: [0, 6], inspect_full: [1, 2], label_hi: [0, 0] },
-  } as unknown as Curves;
+    cost: [1, 8],
+    success_rate: [null, 0.5],
+    cost_by_kind: {
+      hier_demo: [0, 0],
+      label_lo: [0, 6],
+      inspect_full: [1, 2],
+      label_hi: [0, 0],
+      inspect_lo: [],
+      label_full: [],
+    },
+  });
 
-  it('stacks the kinds that cost something, in the order of the algorithm', () => {
-    expect(stack(curves)).toEqual([
-      { kind: 'inspect_full', own: [1, 2], upTo: [1, 2] },
-      { kind: 'label_lo', own: [0, 6], upTo: [1, 8] },
+  it('stack the kinds that cost something, the last of the algorithm on top', () => {
+    const layers = stackOf(curves, 'cost');
+    expect(layers.map(({ label, x, y, low, high }) => ({ label, x, y, low, high }))).toEqual([
+      { label: 'Label_LO', x: [1, 8], y: [0, 6], low: [1, 2], high: [1, 8] },
+      { label: 'Inspect_FULL', x: [1, 8], y: [1, 2], low: [0, 0], high: [1, 2] },
     ]);
   });
 
-  it('has a table short enough to read', () => {
-    expect(sampleRows(3, 5)).toEqual([0, 1, 2]);
-    expect(sampleRows(101, 5)).toEqual([0, 25, 50, 75, 100]);
-    expect(sampleRows(0, 5)).toEqual([]);
+  it('hold until the next value against anything but episodes', () => {
+    expect(successOf(curves, 'episode')[0]?.steps).toBe(false);
+    expect(successOf(curves, 'cost')[0]?.steps).toBe(true);
+    expect(successOf(curvesWith({ episode: [0], success_rate: [null] }), 'cost')).toEqual([]);
+  });
+
+  it('go on where they ended', () => {
+    const more = curvesWith({
+      episode: [2],
+      cost: [9],
+      cost_by_kind: { ...curves.cost_by_kind, label_lo: [7] },
+    });
+    const all = joined(curves, more);
+    expect([all.episode, all.cost, all.cost_by_kind.label_lo]).toEqual([
+      [0, 1, 2],
+      [1, 8, 9],
+      [0, 6, 7],
+    ]);
+    expect(joined(null, more)).toBe(more);
+    expect(joined(curves, curvesWith({}))).toBe(curves);
+  });
+
+  it('know only their own axes', () => {
+    expect([acrossOf('seconds'), acrossOf('__proto__'), acrossOf(null)]).toEqual([
+      'seconds',
+      'episode',
+      'episode',
+    ]);
+  });
+});
+
+describe('runs overlaid', () => {
+  it('are one group if they differ only by seed', () => {
+    const runs = [
+      runWith({ id: 'a', seed: 0 }),
+      runWith({ id: 'b', seed: 1, config: { seed: 1, preset: 'paper' } }),
+      runWith({ id: 'c', name: 'other', config: { preset: 'lean', seed: 0 } }),
+    ];
+    const groups = grouped(runs, false);
+    expect(groups.map((group) => group.runs.map((run) => run.id))).toEqual([['a', 'b'], ['c']]);
+    expect(groups.map((group) => group.label)).toEqual(['hg-dagger, preset paper (2 runs)', 'other']);
+    expect(grouped(runs, true).map((group) => group.label)).toEqual(['a run a', 'a run b', 'other']);
+  });
+
+  it('are steps: their median and range at each point, to where half of them went', () => {
+    const band = bandOf([
+      { x: [0, 10], y: [0, 1], over: true },
+      { x: [0, 20], y: [0, 0.5], over: false },
+      { x: [0, 30], y: [0.2, 0.4], over: false },
+    ]);
+    expect(band).toEqual({
+      x: [0, 10, 20],
+      median: [0, 0.2, 0.5],
+      low: [0, 0, 0.2],
+      high: [0.2, 1, 1],
+    });
+  });
+
+  it('leave an unfinished run out from its end on, and keep the last value of a finished one', () => {
+    const ended = { x: [0, 1], y: [1, 1] };
+    const other = { x: [0, 4], y: [0, 0], over: false };
+    expect(bandOf([{ ...ended, over: false }, other, other])?.high.at(-1)).toBe(0);
+    expect(bandOf([{ ...ended, over: true }, other, other])?.high.at(-1)).toBe(1);
+  });
+
+  it('are nothing where none has begun', () => {
+    expect(bandOf([])).toBeNull();
+    expect(bandOf([{ x: [], y: [], over: false }])).toBeNull();
+  });
+});
+
+describe('one query', () => {
+  const segment = { subgoal: 'north', states: [0, 1, 2, 3], actions: ['up', 'up', 'left'] };
+
+  it('shows where the expert would have ended the segment, and no label after that', () => {
+    const labels = labelsOf(
+      { kind: 'label_lo', actions: ['up', 'down', null], terminations: [false, false, true, false] },
+      buildTape([], [segment]),
+    );
+    expect(labels).toEqual([
+      { frame: 0, action: 'up' },
+      { frame: 1, action: 'down' },
+      { frame: 2, action: null },
+    ]);
+  });
+
+  it('says how each time it was handed out ended', () => {
+    const past = {
+      id: 1,
+      annotator: 'ann',
+      leased_at: 0,
+      expires_at: 1,
+      ended_at: 1,
+      reason: null,
+      answer: null,
+    };
+    const answer = {
+      id: 1,
+      at: 0,
+      units: 1,
+      seconds: 1,
+      content: { kind: 'inspect_full', verdict: 'fail' },
+    } as const;
+    expect(wordsOfEnding({ ...past, state: 'skipped', reason: 'too dark' })).toBe('skipped: too dark');
+    expect(wordsOfEnding({ ...past, state: 'expired' })).toBe('the lease ran out');
+    expect(wordsOfEnding({ ...past, state: 'answered', answer: { ...answer, fate: 'retracted' } })).toBe(
+      'answered (✗ fail), then taken back',
+    );
+    expect(wordsOfEnding({ ...past, state: 'expired', answer: { ...answer, fate: 'late' } })).toBe(
+      'answered too late (✗ fail), not charged',
+    );
   });
 });
 

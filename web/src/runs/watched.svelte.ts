@@ -1,22 +1,41 @@
-import { api, Refused, unwrap, wordsOf } from '../api/client';
-import type { Costs, Curves, Query, Run } from '../api/types';
+import { api, unwrap, Refused, wordsOf } from '../api/client';
+import type { Costs, Curves, Run } from '../api/types';
 import { shell } from '../ui/shell.svelte';
-import { throttled, watch } from './live';
+import { joined } from './curves';
+import { throttled, watch, type RunEvent } from './live';
 
 const REFRESH_MS = 1_000;
-const RECENT = 12;
+
+type Part = 'run' | 'costs' | 'curves' | 'queries' | 'ledger';
+const PARTS: readonly Part[] = ['run', 'costs', 'curves', 'queries', 'ledger'];
+/** What an event makes stale; the rest stays as it is. */
+const STALE: Readonly<Record<RunEvent, readonly Part[]>> = {
+  asked: ['run', 'queries'],
+  answered: ['run', 'costs', 'queries', 'ledger'],
+  retracted: ['run', 'costs', 'queries', 'ledger'],
+  used: ['queries'],
+  cancelled: ['run', 'queries'],
+  episode: ['run', 'costs', 'curves'],
+  run: ['run'],
+};
+
+type Changes = Pick<Run, 'name' | 'budget' | 'priority'> & { state: Run['state'] };
 
 /** A run, kept up to date while somebody looks at it. */
 export class WatchedRun {
   run: Run | null = $state.raw(null);
   curves: Curves | null = $state.raw(null);
   costs: Costs | null = $state.raw(null);
-  recent: readonly Query[] = $state.raw([]);
   problem: string | null = $state(null);
   isMissing = $state(false);
   isLive = $state(false);
+  /** Grow when a table of queries or of charges is no longer what it was. */
+  queriesChanged = $state(0);
+  ledgerChanged = $state(0);
 
   readonly #id: string;
+  readonly #stale = new Set<Part>(PARTS);
+  #missed = false; // then the curves are loaded from their beginning
   #stopped = false;
 
   constructor(id: string) {
@@ -25,42 +44,63 @@ export class WatchedRun {
 
   /** Returns how to stop. */
   start(): () => void {
-    const changed = throttled(() => this.#load(), REFRESH_MS);
-    changed();
-    const close = watch(this.#id, { changed, connected: (isLive) => (this.isLive = isLive) });
+    const load = throttled(() => this.#load(), REFRESH_MS);
+    load();
+    const close = watch(this.#id, {
+      changed: (event) => {
+        for (const part of event === null ? PARTS : STALE[event]) this.#stale.add(part);
+        if (event === null) this.#missed = true;
+        load();
+      },
+      connected: (isLive) => (this.isLive = isLive),
+    });
     return () => {
       this.#stopped = true;
       close();
     };
   }
 
-  /** Pause or resume. */
-  async setState(state: 'running' | 'paused'): Promise<void> {
-    try {
-      const params = { path: { run: this.#id } };
-      this.run = await unwrap(api.PATCH('/api/v1/runs/{run}', { params, body: { state } }));
-      this.problem = null;
-    } catch (error) {
-      this.problem = wordsOf(error);
-    }
+  /** Change the run; throws the server's refusal. */
+  async change(changes: Partial<Changes>): Promise<void> {
+    const params = { path: { run: this.#id } };
+    this.run = await unwrap(api.PATCH('/api/v1/runs/{run}', { params, body: changes }));
   }
 
   async #load(): Promise<void> {
     if (this.#stopped) return;
-    const params = { path: { run: this.#id } };
+    const stale = [...this.#stale];
+    this.#stale.clear();
     try {
-      const [run, curves, costs, recent] = await Promise.all([
-        unwrap(api.GET('/api/v1/runs/{run}', { params })),
-        unwrap(api.GET('/api/v1/runs/{run}/curves', { params })),
-        unwrap(api.GET('/api/v1/runs/{run}/costs', { params })),
-        unwrap(api.GET('/api/v1/runs/{run}/queries', { params: { ...params, query: { limit: RECENT } } })),
-      ]);
-      Object.assign(this, { run, curves, costs, recent: recent.queries, problem: null });
+      await Promise.all(stale.map((part) => this.#loadPart(part)));
+      this.problem = null;
     } catch (error) {
+      for (const part of stale) this.#stale.add(part);
       this.isMissing = error instanceof Refused && error.status === 404;
       this.problem = wordsOf(error);
     }
   }
+
+  async #loadPart(part: Part): Promise<void> {
+    const path = { run: this.#id };
+    if (part === 'queries') this.queriesChanged++;
+    else if (part === 'ledger') this.ledgerChanged++;
+    else if (part === 'run') this.run = await unwrap(api.GET('/api/v1/runs/{run}', { params: { path } }));
+    else if (part === 'costs')
+      this.costs = await unwrap(api.GET('/api/v1/runs/{run}/costs', { params: { path } }));
+    else await this.#loadCurves();
+  }
+
+  async #loadCurves(): Promise<void> {
+    const known = this.#missed ? null : this.curves;
+    this.#missed = false;
+    this.curves = await moreOf(this.#id, known);
+  }
+}
+
+/** A run's curves: those known, with what came since. */
+export async function moreOf(run: string, known: Curves | null): Promise<Curves> {
+  const params = { path: { run }, query: { after: known?.episode.at(-1) ?? -1 } };
+  return joined(known, await unwrap(api.GET('/api/v1/runs/{run}/curves', { params })));
 }
 
 /** Know who is looking, for what they may do. */

@@ -1,0 +1,169 @@
+"""Looking through a run: its queries, its ledger, one query's history, who is at work."""
+
+import time
+
+import pytest
+from sqlalchemy import text
+
+from tests.server.kit import Service, query
+from tests.server.test_curves import filled, report, result
+
+
+def changed(service: Service, statement: str) -> None:
+    """Let time have passed."""
+    service.db.write_now(lambda tx: tx.conn.execute(text(statement)))
+
+
+def test_queries_are_shown_without_their_trajectories(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, query(question="One?"), query("label_lo", ordinal=1, question="Two \u0000?"))
+    held = service.annotator.lease()
+    service.annotator.answer(held, {"kind": "inspect_full", "verdict": "fail"})
+    page = service.viewer.get(f"/runs/{run}/query-rows")
+    newest, oldest = page["rows"]
+    assert (newest["question"], newest["state"], newest["answer"], newest["annotator"]) == (
+        "Two \0?",
+        "open",
+        None,
+        None,
+    )
+    assert oldest["answer"] == {"kind": "inspect_full", "verdict": "fail"}
+    assert (oldest["annotator"], oldest["units"], oldest["episode"], oldest["ordinal"]) == ("abe", 1, 0, 0)
+    assert oldest["answered_at"] >= oldest["created_at"]
+    assert "segments" not in str(page)
+    assert (page["total"], page["newest"], page["oldest"]) == (2, newest["id"], oldest["id"])
+
+
+def test_queries_are_filtered_and_leafed_through_both_ways(service: Service) -> None:
+    run, other = service.learner.create_run(), service.learner.create_run()
+    asked = service.learner.ask(run, *(query(episode=n // 3, ordinal=n % 3) for n in range(7)))
+    service.learner.ask(run, query("label_hi", episode=9))
+    service.learner.ask(other, query())
+    ids = [one["id"] for one in asked]
+    get = service.viewer.get
+    rows = f"/runs/{run}/query-rows"
+
+    def shown(filters: str) -> list[int]:
+        return [row["id"] for row in get(f"{rows}?{filters}")["rows"]]
+
+    assert shown("kind=inspect_full&limit=3") == ids[6:3:-1]
+    assert shown(f"kind=inspect_full&limit=3&before={ids[4]}") == ids[3:0:-1]
+    assert shown(f"kind=inspect_full&limit=3&after={ids[0]}") == ids[3:0:-1]
+    assert shown("episode=1") == ids[5:2:-1]
+    held = service.annotator.lease(run=run)
+    assert shown("annotator=abe") == [held["query"]["id"]], "who holds it"
+    service.annotator.answer(held)
+    assert shown("annotator=abe&state=answered") == [held["query"]["id"]], "who answered it"
+    assert get(f"{rows}?annotator=nobody")["total"] == 0
+    assert get("/runs/000000000000/query-rows", 404)["type"] == "/problems/not-found"
+
+
+def test_the_ledger_lists_charges_and_refunds_and_agrees_with_the_account(service: Service) -> None:
+    run = service.learner.create_run(budget=20)
+    service.learner.ask(run, query("label_lo"), query(ordinal=1))
+    held = service.annotator.lease()
+    service.annotator.answer(held)
+    again = service.annotator.retract(held)
+    service.annotator.answer(again)
+    service.annotator.answer(service.annotator.lease())
+    page = service.viewer.get(f"/runs/{run}/ledger")
+    assert [(line["entry"], line["units"], line["lo_units"], line["balance"]) for line in page["entries"]] == [
+        ("charge", 1, 0, 4),
+        ("charge", 3, 3, 3),
+        ("refund", -3, -3, 0),
+        ("charge", 3, 3, 3),
+    ]
+    assert (page["total"], page["units"], page["lo_units"]) == (4, 4, 3)
+    assert page["units"] == page["spent"] == service.viewer.get(f"/runs/{run}")["spent"]
+    assert page["seconds"] == pytest.approx(sum(line["seconds"] for line in page["entries"]))
+    assert {line["annotator"] for line in page["entries"]} == {"abe"}
+    refunds = service.viewer.get(f"/runs/{run}/ledger?entry=refund")
+    assert [(line["units"], line["balance"]) for line in refunds["entries"]] == [(-3, 0)]
+    assert (refunds["total"], refunds["units"], refunds["spent"]) == (1, -3, 4)
+    older = service.viewer.get(f"/runs/{run}/ledger?kind=label_lo&limit=2&before={page['entries'][1]['id']}")
+    assert [line["entry"] for line in older["entries"]] == ["refund", "charge"]
+    newer = service.viewer.get(f"/runs/{run}/ledger?limit=2&after={page['entries'][3]['id']}")
+    assert [line["entry"] for line in newer["entries"]] == ["charge", "refund"]
+
+
+def test_a_query_tells_how_often_it_was_handed_out_and_what_came_of_it(service: Service) -> None:
+    run = service.learner.create_run()
+    first, middle, last = service.learner.ask(run, query(), query(ordinal=1), query(episode=1))
+    bea = service.user("bea", "annotator")
+    skipped = service.annotator.lease()
+    service.annotator.release(skipped, skip=True, reason="=I cannot tell")
+    expired = bea.lease()
+    changed(service, "UPDATE assignments SET expires_at = 0 WHERE state = 'live'")
+    bea.answer(expired, expect=409)
+    held = bea.lease()
+    again = bea.retract(held) if bea.answer(held) else None
+    bea.answer(again, {"kind": "inspect_full", "verdict": "fail"})
+    assert skipped["query"]["id"] == expired["query"]["id"] == again["query"]["id"] == first["id"]
+    history = service.viewer.get(f"/queries/{first['id']}/history")
+    told = [(one["annotator"], one["state"], one["reason"]) for one in history["assignments"]]
+    assert told == [
+        ("abe", "skipped", "=I cannot tell"),
+        ("bea", "expired", None),
+        ("bea", "answered", None),
+        ("bea", "answered", None),
+    ]
+    fates = [one["answer"] and one["answer"]["fate"] for one in history["assignments"]]
+    assert fates == [None, "late", "retracted", "counts"]
+    assert history["assignments"][3]["answer"]["content"]["verdict"] == "fail"
+    assert [(line["entry"], line["units"]) for line in history["ledger"]] == [
+        ("charge", 1),
+        ("refund", -1),
+        ("charge", 1),
+    ]
+    (row,) = service.viewer.get(f"/runs/{run}/query-rows?kind=inspect_full&annotator=bea")["rows"]
+    assert (row["skips"], row["expiries"]) == (1, 1)
+    assert (history["previous"], history["next"]) == (None, middle["id"])
+    history = service.viewer.get(f"/queries/{last['id']}/history")
+    assert (history["assignments"], history["previous"], history["next"]) == ([], middle["id"], None)
+    assert "token" not in str(history)
+    service.viewer.get("/queries/999999/history", 404)
+
+
+def test_who_is_at_work_and_on_what(service: Service) -> None:
+    run, other = service.learner.create_run(), service.learner.create_run()
+    (asked,) = service.learner.ask(run, query())
+    bot, idle = service.user("bot", "annotator"), service.user("idle", "annotator")
+    held = bot.lease(run=run, defer=0.01)
+    while held is None:
+        held = bot.lease(run=run, defer=0.01)
+    idle.lease(204, kinds=["label_hi", "label_lo"], run=other)
+    found = {one["annotator"]: one for one in service.viewer.get("/annotators")["annotators"]}
+    assert set(found) == {"bot", "idle"}
+    (holding,) = found["bot"]["holds"]
+    assert (holding["query"], holding["run"], holding["kind"]) == (asked["id"], run, "inspect_full")
+    assert (found["idle"]["run"], found["idle"]["kinds"]) == (other, ["label_hi", "label_lo"])
+    assert found["idle"]["seen_at"] >= held["leased_at"]
+
+    def of(one: str) -> list[str]:
+        return [found["annotator"] for found in service.viewer.get(f"/annotators?run={one}")["annotators"]]
+
+    assert (of(run), of(other)) == (["bot"], ["idle"])
+    changed(service, "UPDATE presence SET asked_at = asked_at - 60")
+    assert (of(run), of(other)) == (["bot"], []), "a lease lasts, asking is soon forgotten"
+    bot.answer(held)
+    assert of(run) == []
+    service.viewer.get("/annotators?run=none", 404)
+
+
+def test_a_long_run_is_leafed_through_quickly(service: Service) -> None:
+    run = service.learner.create_run()
+    filled(service, run, 1_000, 5)
+    report(service, run, *(result(n, n % 3 > 0) for n in range(1_000)))
+    for path in ("ledger", "ledger?kind=label_lo&before=2500", "query-rows", "query-rows?annotator=ann&before=2500"):
+        times = []
+        for _ in range(5):
+            before = time.perf_counter()
+            service.viewer.get(f"/runs/{run}/{path}")
+            times.append(time.perf_counter() - before)
+        assert min(times) < 0.1, f"{path} took {min(times):.3f} s"
+    tail = service.viewer.get(f"/runs/{run}/curves?after=997")
+    whole = service.viewer.get(f"/runs/{run}/curves")
+    assert tail["episode"] == [998, 999]
+    assert tail["success_rate"] == whole["success_rate"][-2:]
+    assert tail["cost_by_kind"]["label_lo"] == whole["cost_by_kind"]["label_lo"][-2:]
+    assert tail["lo_samples"] == whole["lo_samples"][-2:]

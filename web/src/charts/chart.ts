@@ -1,0 +1,230 @@
+// What a chart is, as plain values; Chart.svelte draws it as SVG, which is also what is downloaded.
+
+/** How a series is told from others: by color, and without it by dash and marker. */
+export interface Mark {
+  readonly color: string; // name of a custom property
+  readonly dash: string; // as stroke-dasharray has it; '' for a whole line
+  readonly marker: Marker;
+}
+export type Marker = 'circle' | 'square' | 'triangle' | 'diamond' | 'flag' | 'cross';
+
+export interface Series {
+  readonly label: string;
+  readonly mark: Mark;
+  readonly x: readonly number[]; // does not decrease
+  readonly y: readonly (number | null)[]; // what it says
+  readonly top?: readonly number[]; // where it is drawn, if not there
+  readonly low?: readonly number[]; // filled from here ...
+  readonly high?: readonly number[]; // ... to here
+  readonly filled?: 'soft' | 'solid';
+  readonly steps?: boolean; // each value holds until the next
+}
+
+const DASHES = ['', '7 4', '2 3', '10 3 2 3', '5 2', '12 4', '1 4', '8 3 2 3 2 3'];
+const MARKERS: readonly Marker[] = ['circle', 'square', 'triangle', 'diamond', 'flag', 'cross'];
+const COLORS = 8;
+
+/** The marks in their order: eight colors, dashes and six shapes, so that no two of 24 are the same. */
+export function markOf(index: number): Mark {
+  return {
+    color: `subgoal-${index % COLORS}`,
+    dash: DASHES[index % DASHES.length] ?? '',
+    marker: MARKERS[index % MARKERS.length] ?? 'circle',
+  };
+}
+
+export interface Scale {
+  (value: number): number;
+}
+
+/** Maps low..high onto from..to. */
+export function scale(low: number, high: number, from: number, to: number): Scale {
+  const factor = high > low ? (to - from) / (high - low) : 0;
+  return (value) => from + (value - low) * factor;
+}
+
+/** Round numbers from `low` to `high`, about `count` of them. */
+export function ticks(low: number, high: number, count: number): number[] {
+  if (!(high > low) || count < 1) return [low];
+  const rough = (high - low) / count;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const unit = [1, 2, 5, 10].find((one) => one * power >= rough * 0.999) ?? 10;
+  const step = unit * power;
+  const first = Math.ceil(low / step - 1e-9);
+  const last = Math.floor(high / step + 1e-9);
+  return Array.from({ length: last - first + 1 }, (_, index) =>
+    Number(((first + index) * step).toPrecision(12)),
+  );
+}
+
+/** What the axes must hold: x and y from 0 (or the least x) to the largest of any series. */
+export function extent(series: readonly Series[]): { x: [number, number]; y: number } {
+  let [low, high, top] = [Infinity, -Infinity, 0];
+  for (const one of series) {
+    low = Math.min(low, one.x[0] ?? Infinity);
+    high = Math.max(high, one.x.at(-1) ?? -Infinity);
+    for (const values of [one.top ?? one.y, one.high ?? []]) {
+      for (const value of values) if (value !== null && value > top) top = value;
+    }
+  }
+  return { x: low <= high ? [low, high] : [0, 1], y: top };
+}
+
+/** The rows worth drawing where several fall on one pixel: of each column the first, lowest, highest and last. */
+export function thinned(
+  x: readonly number[],
+  y: readonly (number | null)[],
+  toPixel: Scale,
+): readonly number[] {
+  const all = Array.from(x, (_, row) => row);
+  const columns = toPixel(x.at(-1) ?? 0) - toPixel(x[0] ?? 0);
+  if (x.length <= 4 * Math.max(1, columns)) return all;
+  const kept: number[] = [];
+  for (const rows of groups(all, (row) => Math.round(toPixel(x[row] ?? 0)))) {
+    const known = rows.filter((row) => typeof y[row] === 'number');
+    const byValue = known.toSorted((a, b) => (y[a] ?? 0) - (y[b] ?? 0));
+    const chosen = [rows[0], byValue[0], byValue.at(-1), rows.at(-1)].filter((row) => row !== undefined);
+    kept.push(...[...new Set(chosen)].sort((a, b) => a - b));
+  }
+  return kept;
+}
+
+function groups(rows: readonly number[], key: (row: number) => number): number[][] {
+  const found: number[][] = [];
+  let last = NaN;
+  for (const row of rows) {
+    if (key(row) !== last) found.push([]);
+    last = key(row);
+    found.at(-1)?.push(row);
+  }
+  return found;
+}
+
+type Point = readonly [number, number];
+
+/** A series as the data of an SVG path; a value that is not known breaks the line. */
+export function linePath(
+  series: Pick<Series, 'x' | 'steps'>,
+  y: readonly (number | null)[],
+  toX: Scale,
+  toY: Scale,
+): string {
+  const parts: string[] = [];
+  let before: Point | null = null;
+  for (const row of thinned(series.x, y, toX)) {
+    const value = y[row];
+    if (value === null || value === undefined) {
+      before = null;
+      continue;
+    }
+    const here: Point = [round(toX(series.x[row] ?? 0)), round(toY(value))];
+    if (before === null) parts.push(`M${here[0]} ${here[1]}`);
+    else if (series.steps) parts.push(`H${here[0]}V${here[1]}`);
+    else parts.push(`L${here[0]} ${here[1]}`);
+    before = here;
+  }
+  return parts.join('');
+}
+
+/** What lies between two lines, as the data of an SVG path. */
+export function areaPath(
+  series: Pick<Series, 'x' | 'steps'>,
+  low: readonly number[],
+  high: readonly number[],
+  toX: Scale,
+  toY: Scale,
+): string {
+  const rows = thinned(series.x, high, toX);
+  if (rows.length === 0) return '';
+  const edge = (values: readonly number[]): Point[] => {
+    const points = rows.map((row): Point => [round(toX(series.x[row] ?? 0)), round(toY(values[row] ?? 0))]);
+    return series.steps ? withCorners(points) : points;
+  };
+  const around = [...edge(high), ...edge(low).reverse()];
+  return `M${around.map(([x, y]) => `${x} ${y}`).join('L')}Z`;
+}
+
+/** Each value holds until the next: a corner before every point but the first. */
+function withCorners(points: readonly Point[]): Point[] {
+  return points.flatMap((point, index): Point[] => {
+    const before = points[index - 1];
+    return before === undefined ? [point] : [[point[0], before[1]], point];
+  });
+}
+
+/** All x where any series has a value, each once, rising: where the reading stops. */
+export function stopsOf(series: readonly Series[]): number[] {
+  return [...new Set(series.flatMap((one) => one.x))].sort((a, b) => a - b);
+}
+
+/** The row of a series that holds at x, or null before its first and past its last. */
+export function rowAt(series: Pick<Series, 'x'>, x: number): number | null {
+  if (series.x.length === 0 || x > (series.x.at(-1) ?? x)) return null;
+  let [low, high] = [0, series.x.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((series.x[middle] ?? Infinity) <= x) low = middle + 1;
+    else high = middle;
+  }
+  return low === 0 ? null : low - 1;
+}
+
+/** The stop nearest to x. */
+export function nearest(stops: readonly number[], x: number): number {
+  const at = rowAt({ x: [...stops, Infinity] }, x) ?? 0;
+  const [before, after] = [stops[at] ?? x, stops[at + 1] ?? Infinity];
+  return Math.min(x - before <= after - x ? at : at + 1, stops.length - 1);
+}
+
+/** Where to write labels that want to stand at `wanted`, so that none covers another: in order, `gap` apart. */
+export function spread(wanted: readonly number[], gap: number, low: number, high: number): number[] {
+  const order = wanted.map((_, index) => index).sort((a, b) => (wanted[a] ?? 0) - (wanted[b] ?? 0));
+  const placed = new Array<number>(wanted.length).fill(0);
+  let floor = low;
+  for (const index of order) {
+    placed[index] = Math.max(wanted[index] ?? 0, floor);
+    floor = (placed[index] ?? 0) + gap;
+  }
+  let ceiling = high;
+  for (const index of order.toReversed()) {
+    placed[index] = Math.min(placed[index] ?? 0, ceiling);
+    ceiling = (placed[index] ?? 0) - gap;
+  }
+  return placed;
+}
+
+/** Rows at which a line carries its marker: a few, shifted from series to series. */
+export function markerRows(series: Pick<Series, 'x'>, index: number, toX: Scale, every = 130): number[] {
+  const rows: number[] = [];
+  let next = toX(series.x[0] ?? 0) + every * (0.35 + 0.17 * (index % 5));
+  series.x.forEach((x, row) => {
+    if (toX(x) < next) return;
+    rows.push(row);
+    next = toX(x) + every;
+  });
+  return rows;
+}
+
+const SHAPES: Readonly<Record<Marker, string>> = {
+  circle: 'M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0Z',
+  square: 'M-3.5 -3.5H3.5V3.5H-3.5Z',
+  triangle: 'M0 -4.5L4.5 3.5H-4.5Z',
+  diamond: 'M0 -5L5 0L0 5L-5 0Z',
+  flag: 'M0 4.5L4.5 -3.5H-4.5Z',
+  cross: 'M-4 -1.3H-1.3V-4H1.3V-1.3H4V1.3H1.3V4H-1.3V1.3H-4Z',
+};
+
+export function shapeOf(marker: Marker): string {
+  return SHAPES[marker];
+}
+
+/** At most `most` rows, evenly spread, the last one always among them. */
+export function sampleRows(length: number, most: number): number[] {
+  if (length <= most) return Array.from({ length }, (_, row) => row);
+  const stride = (length - 1) / (most - 1);
+  return Array.from({ length: most }, (_, index) => Math.round(index * stride));
+}
+
+function round(value: number): number {
+  return Math.round(value * 100) / 100;
+}
