@@ -6,10 +6,12 @@ idempotent on the server, so a server that was killed and came back sees nothing
 
 import time
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from typing import Any, TypeVar
 
 import httpx2
 from pydantic import BaseModel
+from websockets.sync.client import ClientConnection, connect
 
 from server import wire
 
@@ -17,6 +19,8 @@ M = TypeVar("M", bound=BaseModel)
 
 PATIENCE_SECONDS = 300.0
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.05, 2.0
+_CONNECT_SECONDS = 5.0
+_LARGEST_MESSAGE = 4 * 2**20  # on a play socket, as the server has it
 _TRANSIENT = frozenset({429, 502, 503, 504})
 
 
@@ -59,7 +63,7 @@ class Client:
             base_url=f"{server.rstrip('/')}/api/v1",
             headers={"Authorization": f"Bearer {token}"},
             transport=transport,
-            timeout=httpx2.Timeout(90.0, connect=5.0),  # long polls last up to 60 s
+            timeout=httpx2.Timeout(90.0, connect=_CONNECT_SECONDS),  # long polls last up to 60 s
         )
 
     def close(self) -> None:
@@ -99,6 +103,20 @@ class Client:
     def use(self, query: int) -> wire.Query:
         """Say that the learner uses the answer now; from then on it cannot be retracted."""
         return self._call(wire.Query, "POST", f"/queries/{query}/use")
+
+    def play(self, query: int) -> AbstractContextManager[ClientConnection]:
+        """Open the play socket of a demonstration.
+
+        Raises:
+            OSError, WebSocketException: there is no server, or it refuses.
+        """
+        server = str(self._http.base_url).removeprefix("http")
+        return connect(
+            f"ws{server}queries/{query}/play",
+            additional_headers={"Authorization": self._http.headers["Authorization"]},
+            open_timeout=_CONNECT_SECONDS,
+            max_size=_LARGEST_MESSAGE,
+        )
 
     def report(self, run: str, episodes: Sequence[wire.EpisodeResult]) -> wire.Run:
         """Report what episodes brought."""

@@ -15,7 +15,8 @@ from server.database import Database
 from server.errors import StorageFailed
 from server.guard import Guard
 from server.live import Hub
-from server.routes import assignments, people, queries, runs, system
+from server.relay import Relay
+from server.routes import assignments, people, play, queries, runs, system
 from server.settings import Settings
 
 API = "/api/v1"
@@ -37,7 +38,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lambda app: _lifespan(app, chosen),
     )
     api = APIRouter(prefix=API)
-    for module in (runs, queries, assignments, people):
+    for module in (runs, queries, assignments, play, people):
         api.include_router(module.router)
     app.include_router(api)
     app.include_router(system.router)
@@ -56,7 +57,7 @@ async def _lifespan(app: FastAPI, settings: Settings) -> AsyncIterator[None]:
     hub = Hub()
     db = await asyncio.to_thread(Database, settings.database, hub.committed)
     hub.open()
-    app.state.context = Context(settings, db, hub, Credentials(db), Attempts(settings.login_failures))
+    app.state.context = Context(settings, db, hub, Credentials(db), Attempts(settings.login_failures), Relay())
     reaper = asyncio.create_task(_reap(app.state.context))
     try:
         yield
