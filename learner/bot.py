@@ -27,7 +27,7 @@ class BotSettings:
     kinds: tuple[wire.Kind, ...] | None = None  # only these kinds
     error_rate: float = 0.0  # share of answers that are random ones
     seconds: float = 0.0  # how long it thinks about each answer
-    defer: float = 0.0  # leaves queries this long to people who are at work, except demonstrations
+    defer: float = 0.0  # leaves queries this long to people who are at work
     seed: int = 0  # of its errors
 
 

@@ -7,10 +7,12 @@ idempotent on the server, so a server that was killed and came back sees nothing
 import base64
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
 from typing import Any, TypeVar
 
 import httpx2
 from pydantic import BaseModel
+from websockets.sync.client import ClientConnection, connect
 
 from server import wire
 
@@ -20,6 +22,8 @@ PATIENCE_SECONDS = 300.0
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.05, 2.0
 _HASHES_AT_ONCE = 1_000
 _UPLOAD_BYTES = 2 * 2**20  # of a request body with frames; one frame alone may be larger
+_CONNECT_SECONDS = 5.0
+_LARGEST_MESSAGE = 4 * 2**20  # on a play socket, as the server has it
 _TRANSIENT = frozenset({429, 502, 503, 504})
 
 
@@ -63,7 +67,7 @@ class Client:
             base_url=f"{server.rstrip('/')}/api/v1",
             headers={"Authorization": f"Bearer {token}"},
             transport=transport,
-            timeout=httpx2.Timeout(90.0, connect=5.0),  # long polls last up to 60 s
+            timeout=httpx2.Timeout(90.0, connect=_CONNECT_SECONDS),  # long polls last up to 60 s
         )
 
     def close(self) -> None:
@@ -113,6 +117,20 @@ class Client:
     def use(self, query: int) -> wire.Query:
         """Say that the learner uses the answer now; from then on it cannot be retracted."""
         return self._call(wire.Query, "POST", f"/queries/{query}/use")
+
+    def play(self, query: int) -> AbstractContextManager[ClientConnection]:
+        """Open the play socket of a demonstration.
+
+        Raises:
+            OSError, WebSocketException: there is no server, or it refuses.
+        """
+        server = str(self._http.base_url).removeprefix("http")
+        return connect(
+            f"ws{server}queries/{query}/play",
+            additional_headers={"Authorization": self._http.headers["Authorization"]},
+            open_timeout=_CONNECT_SECONDS,
+            max_size=_LARGEST_MESSAGE,
+        )
 
     def report(self, run: str, episodes: Sequence[wire.EpisodeResult]) -> wire.Run:
         """Report what episodes brought."""

@@ -23,7 +23,7 @@ from learner.datasets import Labels
 from learner.domains.base import InstanceSets
 from learner.evaluation import attempt
 from learner.learner import TEST, TRAIN, Learner
-from learner.queries import Query
+from learner.queries import HierDemo, Query
 from learner.rollout import run
 from learner.translation import Translator
 from learner.types import FLAT, META
@@ -34,6 +34,11 @@ CHECKPOINT_EVERY = 25  # episodes
 _TRAIN_ORDER, _TEST_ORDER, _VARIATION = 2, 3, 4  # streams of randomness, beside those of the rollouts
 _LARGEST_BATCH = 64  # rollouts in step, when looking for one that fails
 _MOST_DRAWS = 250  # without a failure, the learner has nothing left to ask about for now
+
+
+Withdraw = Callable[[], None]
+Offer = Callable[[int, Translator], Withdraw]
+"""Offers the environment of a demonstration (a query's id, its instance) to whoever plays it."""
 
 
 @dataclass
@@ -49,6 +54,7 @@ class OpenEpisode:
     pending: int | None = None  # the query it waits for
     units: float = 0  # what its answers cost
     labels: Labels | None = None  # what it taught, once it is over
+    withdraw: Withdraw = lambda: None  # its environment, from who may be playing it
 
     def resume(self, going_on: Callable[[], Query]) -> Query | None:
         """Let the algorithm go on to its next query; None at its end."""
@@ -75,6 +81,7 @@ class Driver:
         run_id: the run, already created.
         let_answer: called when queries may be open; an expert in this process answers them there.
         on_episode: called with each episode's result and what its answers cost, in units.
+        offer: called with a demonstration that others are to give, so that they can play it.
         checkpoint: called with where the run stands whenever it can go on from there.
         first: where to go on, after a resumed checkpoint.
         pictures: whether queries carry pictures of their states, where the domain has them; people need them.
@@ -91,6 +98,7 @@ class Driver:
         let_answer: Callable[[], None] = lambda: None,
         on_episode: Callable[[wire.EpisodeResult, float], None] = lambda _result, _units: None,
         checkpoint: Callable[[Progress], None] = lambda _: None,
+        offer: Offer = lambda _query, _translator: lambda: None,
         first: Progress = START,
         pictures: bool = False,
     ) -> None:
@@ -98,6 +106,7 @@ class Driver:
         self._client, self._run_id = client, run_id
         self._let_answer, self._on_episode, self._checkpoint = let_answer, on_episode, checkpoint
         self._pictures = pictures
+        self._offer = offer
         self._test_simulator = learner.make_simulator()
         # Experience is large, and episodes that learn from it are short.
         self._checkpoint_every = CHECKPOINT_EVERY * (20 if learner.structure.reinforced else 1)
@@ -119,14 +128,18 @@ class Driver:
             BudgetExhausted: the budget ended first.
             Refused: the server refused for another reason; a run that was finished by somebody, say.
         """
-        while self._open or self._next < self._config.episodes:
-            while self._may_start():
-                self._start_episode(self._next)
-                self._next += 1
-            if self._open[0].labels is not None:
-                self._apply(self._open.popleft())
-            else:
-                self._wait()
+        try:
+            while self._open or self._next < self._config.episodes:
+                while self._may_start():
+                    self._start_episode(self._next)
+                    self._next += 1
+                if self._open[0].labels is not None:
+                    self._apply(self._open.popleft())
+                else:
+                    self._wait()
+        finally:
+            for episode in self._open:
+                episode.withdraw()
 
     def _may_start(self) -> bool:
         """Return whether the next episode may begin.
@@ -190,7 +203,9 @@ class Driver:
             episode.ordinal += 1
             episode.pending = asked.id
             self._let_answer()
-            query = self._go_on(episode)
+            asked_before, query = query, self._go_on(episode)
+            if episode.pending is not None and isinstance(asked_before, HierDemo):
+                episode.withdraw = self._offer(asked.id, episode.translator)
 
     def _go_on(self, episode: OpenEpisode) -> Query | None:
         """Use the pending answer, if it is there, and return the next query, if there is one."""
@@ -202,7 +217,8 @@ class Driver:
                 return None
             raise
         assert used.answer is not None
-        episode.pending = None
+        episode.withdraw()
+        episode.pending, episode.withdraw = None, lambda: None
         episode.units += used.units or 0
         return episode.resume(partial(episode.generator.send, episode.translator.answer(used.answer)))
 

@@ -8,13 +8,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from learner import checkpoints
+from learner import checkpoints, stage
 from learner.algorithms import find_algorithm
 from learner.bot import Bot, BotSettings
 from learner.client import Client
 from learner.config import START, Progress, TrainConfig
 from learner.domains.base import InstanceSets, find_domain
-from learner.driver import BudgetExhausted, Driver
+from learner.driver import BudgetExhausted, Driver, Offer
 from learner.evaluation import Evaluation, evaluate
 from learner.experts.head_start import head_start
 from learner.experts.oracle import OracleExpert
@@ -145,6 +145,7 @@ def train(
             _answering(connection, run.id),
             report,
             partial(save, weights_only=False),
+            _offering(connection),
             first,
             pictures=connection.annotator is None,
         )
@@ -206,6 +207,13 @@ def _answering(connection: Connection, run: str) -> Callable[[], None]:
             connection.annotator.release(assignment)
     bot = Bot(connection.annotator, BotSettings(run=run))
     return lambda: bot.work(wait=0)
+
+
+def _offering(connection: Connection) -> Offer:
+    """Return what lets people play demonstrations, unless an expert in this process gives them."""
+    if connection.annotator is not None:
+        return lambda _query, _translator: lambda: None
+    return lambda query, translator: stage.offer(partial(connection.learner.play, query), translator)
 
 
 def _summary(

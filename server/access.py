@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import Depends, Request
 from fastapi.security import APIKeyCookie, HTTPBearer
+from starlette.requests import HTTPConnection
 
 from server import errors
 from server.context import Context, Ctx
@@ -34,10 +35,10 @@ class Caller:
     by_cookie: bool
 
 
-async def authenticate(request: Request, context: Ctx) -> Caller:
+async def authenticate(connection: HTTPConnection, context: Ctx) -> Caller:
     """Return who calls, by bearer token or by session cookie."""
-    scheme, _, token = request.headers.get("authorization", "").partition(" ")
-    secret, by_cookie = (token.strip(), False) if scheme.lower() == "bearer" else (request.cookies.get(COOKIE), True)
+    scheme, _, token = connection.headers.get("authorization", "").partition(" ")
+    secret, by_cookie = (token.strip(), False) if scheme.lower() == "bearer" else (connection.cookies.get(COOKIE), True)
     if not secret:
         raise errors.Unauthenticated("Send `Authorization: Bearer <token>`, or open a login link (waypost login-link).")
     caller = await _lookup(context, secret, by_cookie)
@@ -65,22 +66,36 @@ def allow(roles: frozenset[Role]) -> Callable[..., Coroutine[Any, Any, Caller]]:
         caller = await authenticate(request, context)
         if caller.by_cookie and request.method not in {"GET", "HEAD"}:
             refuse_cross_site(request)
-        if caller.role not in roles:
-            raise errors.Forbidden(f"This needs the role {' or '.join(sorted(roles))}; {caller.name} is {caller.role}.")
+        refuse_role(caller, roles)
         return caller
 
     return check
 
 
-def refuse_cross_site(request: Request) -> None:
+async def on_socket(socket: HTTPConnection, context: Context) -> Caller:
+    """Return who opens a socket: whoever can do something there, with a cookie only from the page itself."""
+    caller = await authenticate(socket, context)
+    if caller.by_cookie:
+        refuse_cross_site(socket)
+    refuse_role(caller, ANNOTATORS | LEARNERS)
+    return caller
+
+
+def refuse_role(caller: Caller, roles: frozenset[Role]) -> None:
+    """Refuse a caller whose role is none of these."""
+    if caller.role not in roles:
+        raise errors.Forbidden(f"This needs the role {' or '.join(sorted(roles))}; {caller.name} is {caller.role}.")
+
+
+def refuse_cross_site(connection: HTTPConnection) -> None:
     """Refuse an unsafe request unless the browser says that this server's own page caused it."""
-    site = request.headers.get("sec-fetch-site")
+    site = connection.headers.get("sec-fetch-site")
     if site is not None:
         if site in {"same-origin", "none"}:
             return
         raise errors.CrossSite(f"The request came from a {site} page.")
-    origin = request.headers.get("origin", "")
-    if origin.partition("://")[2] != request.headers.get("host"):
+    origin = connection.headers.get("origin", "")
+    if origin.partition("://")[2] != connection.headers.get("host"):
         raise errors.CrossSite("With a session cookie, send the page's Origin; a program should use a token instead.")
 
 

@@ -16,12 +16,14 @@ from server.errors import StorageFailed
 from server.guard import Guard
 from server.live import Hub
 from server.practice import PracticeSet
+from server.relay import Relay
 from server.routes import (
     assignments,
     frames,
     gold,
     me,
     people,
+    play,
     practice,
     queries,
     runs,
@@ -49,7 +51,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lambda app: _lifespan(app, chosen),
     )
     api = APIRouter(prefix=API)
-    for module in (runs, queries, assignments, watching, frames, people, me, gold, practice):
+    for module in (runs, queries, assignments, play, watching, frames, people, me, gold, practice):
         api.include_router(module.router)
     app.include_router(api)
     app.include_router(system.router)
@@ -68,8 +70,15 @@ async def _lifespan(app: FastAPI, settings: Settings) -> AsyncIterator[None]:
     hub = Hub()
     db = await asyncio.to_thread(Database, settings.database, hub.committed)
     hub.open()
-    practicing = PracticeSet(settings.practice)
-    app.state.context = Context(settings, db, hub, Credentials(db), Attempts(settings.login_failures), practicing)
+    app.state.context = Context(
+        settings,
+        db,
+        hub,
+        Credentials(db),
+        Attempts(settings.login_failures),
+        PracticeSet(settings.practice),
+        Relay(),
+    )
     reaper = asyncio.create_task(_reap(app.state.context))
     try:
         yield

@@ -4,12 +4,14 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import Annotated, cast
 
-from fastapi import Depends, Request
+from fastapi import Depends
+from starlette.requests import HTTPConnection
 
 from server.auth import Attempts, Credentials
 from server.database import Database
 from server.live import Hub
 from server.practice import PracticeSet
+from server.relay import Relay
 from server.settings import Settings
 
 try:
@@ -28,11 +30,12 @@ class Context:
     credentials: Credentials
     attempts: Attempts
     practice: PracticeSet
+    relay: Relay
 
 
-async def context_of(request: Request) -> Context:
-    """Return the context of the app that serves a request."""
-    return cast(Context, request.app.state.context)
+async def context_of(connection: HTTPConnection) -> Context:
+    """Return the context of the app that serves a request or a socket."""
+    return cast(Context, connection.app.state.context)
 
 
 Ctx = Annotated[Context, Depends(context_of)]

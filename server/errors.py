@@ -21,6 +21,8 @@ Refusal
 │   ├── AnswerUsed              the learner has trained on the answer
 │   ├── AnswerRetracted         the answer was taken back
 │   ├── NotAnswered             there is no answer to use
+│   ├── NotPlayable             no open demonstration to play
+│   ├── Displaced               another connection has taken this end of the play socket
 │   ├── RunFinished             a finished run asks nothing more
 │   ├── BudgetTooLow            a budget below what is spent and reserved
 │   ├── NameTaken               a user of that name exists
@@ -32,6 +34,7 @@ Refusal
 ├── Unprocessable          422  well-formed, but wrong; names the field
 ├── TooManyQueries         429  the run has too many open queries
 ├── TooManyAttempts        429  too many wrong login codes
+├── TooManyMessages        429  more on a socket than any person sends
 └── StorageFailed          503  nothing was stored; try again
 """
 
@@ -175,6 +178,18 @@ class NotAnswered(Conflict):
     name, title = "not-answered", "Not answered"
 
 
+class NotPlayable(Conflict):
+    """The query is no demonstration, or no longer an open one."""
+
+    name, title = "not-playable", "Not an open demonstration"
+
+
+class Displaced(Conflict):
+    """A newer connection has taken this end of the play socket."""
+
+    name, title = "displaced", "Connected elsewhere"
+
+
 class RunFinished(Conflict):
     """A finished run takes nothing new."""
 
@@ -243,6 +258,12 @@ class TooManyAttempts(Refusal):
     """Too many wrong login codes came from this client."""
 
     status, name, title = 429, "too-many-attempts", "Too many attempts"
+
+
+class TooManyMessages(Refusal):
+    """More messages came on a socket than playing needs."""
+
+    status, name, title = 429, "too-many-messages", "Too many messages"
 
 
 class StorageFailed(Refusal):

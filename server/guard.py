@@ -42,6 +42,9 @@ class Guard:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Refuse, or pass on with the body read and the headers set."""
+        if scope["type"] == "websocket":
+            await self._socket(scope, receive, send)
+            return
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
@@ -63,6 +66,15 @@ class Guard:
             return
         if body is not None:
             await self._app(scope, replayed(body, receive), send_with_headers)
+
+    async def _socket(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Refuse a socket to another host, or pass it on; the size of its messages is uvicorn's to bound."""
+        try:
+            self._check_host(scope)
+        except errors.Misdirected as refusal:
+            await send({"type": "websocket.close", "code": 4_000 + refusal.status, "reason": refusal.detail})
+        else:
+            await self._app(scope, receive, send)
 
     def _check_host(self, scope: Scope) -> None:
         host = host_name(Headers(scope=scope).get("host", ""))

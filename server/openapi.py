@@ -6,8 +6,9 @@ from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
+from pydantic.json_schema import models_json_schema
 
-from server import errors, problems
+from server import errors, problems, wire
 
 SHARED = problems.refusals(
     errors.Unauthenticated,
@@ -19,6 +20,7 @@ SHARED = problems.refusals(
     errors.StorageFailed,
 )
 PROBLEM = {"$ref": "#/components/schemas/Problem"}
+PLAYED = (wire.PlayTake, wire.PlayOffer, wire.PlayMoves, wire.PlayStates, wire.PlayStage)
 
 
 def install(app: FastAPI) -> None:
@@ -41,7 +43,17 @@ def document(app: FastAPI) -> dict[str, Any]:
     schemas = found["components"]["schemas"]
     for name in ("HTTPValidationError", "ValidationError"):
         schemas.pop(name, None)
+    schemas.update(_socket_messages() | schemas)
     return _renamed(found)
+
+
+def _socket_messages() -> dict[str, Any]:
+    """Return the schemas of the messages of the play socket, which OpenAPI has no path for."""
+    _, schema = models_json_schema(
+        [(model, "serialization") for model in PLAYED], ref_template="#/components/schemas/{model}"
+    )
+    messages: dict[str, Any] = schema["$defs"]
+    return messages
 
 
 def _state_problems(operation: dict[str, Any]) -> None:

@@ -11,6 +11,7 @@ from fastapi import FastAPI
 
 from server.app import create_app
 from server.database import Database
+from server.playing import MESSAGE_BYTES
 from server.settings import Settings
 
 GRACE_SECONDS = 2
@@ -31,6 +32,7 @@ class Server(uvicorn.Server):
             access_log=False,
             server_header=False,
             proxy_headers=False,
+            ws_max_size=MESSAGE_BYTES,
             timeout_graceful_shutdown=GRACE_SECONDS,
         )
         super().__init__(config)

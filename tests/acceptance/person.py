@@ -1,6 +1,6 @@
 """A person at the page, as a script: reads the question's number off the page and answers with the keyboard alone."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from playwright.sync_api import Page
 
@@ -36,11 +36,32 @@ class Person:
 
     def _answer(self, query: int) -> None:
         asked = self._client.query(query)
-        for key in self._keys(self._expert(asked.ask)):
-            self._page.keyboard.press(key)
+        answer = self._expert(asked.ask)
+        if isinstance(answer, wire.HierDemoAnswer):
+            self._play(answer)
+        else:
+            self._press(self._keys(answer))
         self.answered.append(asked.ask.kind)
 
-    def _keys(self, answer: wire.Answer) -> list[str]:
+    def _play(self, answer: wire.HierDemoAnswer) -> None:
+        """Play a demonstration as the expert would, and send it once the page says that it succeeded."""
+        self._page.locator("[data-stage=here]").wait_for()
+        *before, last = answer.segments
+        for segment in before:
+            self._press([*self._moves(segment), "Enter"])
+        self._press(self._moves(last))
+        self._page.get_by_text("The task is accomplished.").wait_for()
+        self._press(["Enter"])
+
+    def _moves(self, segment: wire.DemoSegment) -> list[str]:
+        assert segment.subgoal is not None
+        return [str(self._subgoals.index(segment.subgoal) + 1), *(ARROWS[action] for action in segment.actions)]
+
+    def _press(self, keys: Sequence[str]) -> None:
+        for key in keys:
+            self._page.keyboard.press(key)
+
+    def _keys(self, answer: wire.Answer) -> Sequence[str]:
         match answer:
             case wire.InspectAnswer():
                 return ["p" if answer.verdict == "pass" else "f"]
@@ -53,4 +74,4 @@ class Person:
             case wire.LabelFullAnswer():
                 return [*(ARROWS[action] for action in answer.actions), "Enter"]
             case wire.HierDemoAnswer():
-                raise AssertionError("the page does not show demonstrations")
+                raise AssertionError("a demonstration is played")

@@ -3011,6 +3011,106 @@ export interface components {
              */
             renderer: string;
         };
+        /**
+         * PlayMoves
+         * @description Annotator to learner: the whole demonstration as it stands, so that neither end must remember the other's past.
+         *
+         *     What changed since the last message, and in which direction, is for the learner to see.
+         */
+        PlayMoves: {
+            /**
+             * Type
+             * @constant
+             */
+            type: "moves";
+            /**
+             * Number
+             * @description Counts these messages; the reply repeats it.
+             */
+            number: number;
+            /**
+             * Segments
+             * @description As in the answer; none before the first move.
+             */
+            segments: components["schemas"]["DemoSegment"][];
+            /**
+             * Known
+             * @description States s_1 .. s_known need not be sent, the annotator has them.
+             */
+            known: number;
+        };
+        /**
+         * PlayOffer
+         * @description A learner's first message: it offers the query's environment.
+         */
+        PlayOffer: {
+            /**
+             * Type
+             * @constant
+             */
+            type: "offer";
+        };
+        /**
+         * PlayStage
+         * @description Server to annotator: whether a learner offers the environment just now.
+         */
+        PlayStage: {
+            /**
+             * Type
+             * @constant
+             */
+            type: "stage";
+            /** Present */
+            present: boolean;
+        };
+        /**
+         * PlayStates
+         * @description Learner to annotator: what the environment made of the moves.
+         */
+        PlayStates: {
+            /**
+             * Type
+             * @constant
+             */
+            type: "states";
+            /** Number */
+            number: number;
+            /**
+             * Known
+             * @description How many states come before these.
+             */
+            known: number;
+            /**
+             * States
+             * @description The states after those, in the domain's JSON view, up to the episode's end.
+             */
+            states: components["schemas"]["JsonValue"][];
+            /**
+             * Ended
+             * @description Whether the episode ended in the last state; actions after it have no state.
+             */
+            ended: boolean;
+            /**
+             * Succeeded
+             * @description Whether the whole task is accomplished in the last state.
+             */
+            succeeded: boolean;
+        };
+        /**
+         * PlayTake
+         * @description An annotator's first message: shows that it holds the query's live assignment.
+         */
+        PlayTake: {
+            /**
+             * Type
+             * @constant
+             */
+            type: "take";
+            /** Assignment */
+            assignment: number;
+            /** Token */
+            token: string;
+        };
     };
     responses: never;
     parameters: never;

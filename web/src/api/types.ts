@@ -8,10 +8,15 @@ export type Kind = Ask['kind'];
 export type Answer = Schemas['AnswerPost']['answer'];
 export type AnswerOf<K extends Answer['kind']> = Extract<Answer, { kind: K }>;
 export type Assignment = Schemas['Assignment'];
+export type DemoSegment = Schemas['DemoSegment'];
 export type Costs = Schemas['Costs'];
 export type Curves = Schemas['Curves'];
 export type Lease = Schemas['Lease'];
 export type Me = Schemas['Me'];
+export type PlayMoves = Schemas['PlayMoves'];
+export type PlayStage = Schemas['PlayStage'];
+export type PlayStates = Schemas['PlayStates'];
+export type PlayTake = Schemas['PlayTake'];
 export type Prices = Schemas['Prices'];
 export type Query = Schemas['Query'];
 export type Receipt = Schemas['Receipt'];
@@ -36,7 +41,7 @@ export type Practice = Schemas['Practice'];
 export type Feedback = Schemas['Feedback'];
 export type Json = Schemas['JsonValue'];
 
-/** The kinds this page can answer; demonstrations are answered by programs. */
+/** The kinds that ask about a trajectory; a demonstration makes one. */
 export const ANSWERABLE = [
   'inspect_full',
   'label_hi',
@@ -46,6 +51,8 @@ export const ANSWERABLE = [
 ] as const satisfies readonly Kind[];
 export type AnswerableKind = (typeof ANSWERABLE)[number];
 export type Answerable = AskOf<AnswerableKind>;
+
+export const KINDS = ['hier_demo', ...ANSWERABLE] as const satisfies readonly Kind[];
 
 /** The paper's names of the queries. */
 export const KIND_NAMES: Record<Kind, string> = {

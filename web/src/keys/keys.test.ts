@@ -23,7 +23,7 @@ const awkward: Vocabulary = {
   ],
   actions: ['Left', 'skip', 'fire', 'noop'],
 };
-const MODES: Mode[] = [...ANSWERABLE, 'waiting', 'feedback', 'between'];
+const MODES: Mode[] = [...ANSWERABLE, 'hier_demo', 'flat_demo', 'waiting', 'feedback', 'between'];
 
 const press = (key: string, more: Partial<KeyPress> = {}): KeyPress => ({
   key,
@@ -77,6 +77,34 @@ describe('the registry', () => {
     expect(keysOf(bindingsFor('label_lo', maze), 'back')).toEqual([',']);
     expect(keysOf(bindingsFor('label_lo', awkward), 'forward')).toEqual(['ArrowRight', '.']);
     expect(keysOf(bindingsFor('inspect_lo', maze), 'back')).toEqual(['ArrowLeft', ',']);
+  });
+
+  it('gives the actions of a demonstration arrows where they are so named, and subgoals their letters', () => {
+    const bindings = bindingsFor('hier_demo', maze);
+    expect(maze.actions.map((_, index) => keysOf(bindings, `act:${index}`))).toEqual([
+      ['ArrowUp'],
+      ['ArrowDown'],
+      ['ArrowLeft'],
+      ['ArrowRight'],
+    ]);
+    expect(keysOf(bindings, 'choose:0')).toEqual(['n', '1']);
+    expect(keysOf(bindings, 'reached')).toEqual(['Enter', 'd']);
+  });
+
+  it('gives other actions of a demonstration a letter each, digits too where no subgoal needs them', () => {
+    const hierarchical = bindingsFor('hier_demo', awkward);
+    expect(awkward.actions.map((_, index) => keysOf(hierarchical, `act:${index}`))).toEqual([
+      ['ArrowLeft'],
+      ['s'],
+      ['f'],
+      ['n'],
+    ]);
+    expect(keysOf(hierarchical, 'choose:3')).toEqual(['x', '4']);
+    const many = { ...maze, actions: Array.from({ length: 30 }, (_, index) => `noop ${index}`) };
+    const flat = bindingsFor('flat_demo', many);
+    expect(collisions(flat)).toEqual([]);
+    expect(keysOf(flat, 'act:1')).toEqual(['o', '2']);
+    expect(flat.filter(({ command, keys }) => command.startsWith('act:') && keys.length === 0)).toHaveLength(5);
   });
 
   it('leaves every command of every mode reachable', () => {

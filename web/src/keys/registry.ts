@@ -1,6 +1,6 @@
 import type { AnswerableKind, Vocabulary } from '../api/types';
 
-/** What a key can do. `choose:2` sets the third subgoal or action of the vocabulary. */
+/** What a key can do. `choose:2` sets the third subgoal or action of the vocabulary, `act:2` takes the third action. */
 export type Command =
   | 'help'
   | 'pass'
@@ -26,7 +26,11 @@ export type Command =
   | 'next-stop'
   | 'slower'
   | 'faster'
-  | `choose:${number}`;
+  | 'reached'
+  | 'send'
+  | 'start-over'
+  | `choose:${number}`
+  | `act:${number}`;
 
 export interface Binding {
   readonly command: Command;
@@ -37,20 +41,24 @@ export interface Binding {
 }
 type Group = 'Answer' | 'Player' | 'Task' | 'Page';
 
-export type Mode = AnswerableKind | 'waiting' | 'feedback' | 'between';
+export type Mode = AnswerableKind | 'hier_demo' | 'flat_demo' | 'waiting' | 'feedback' | 'between';
 
 /** The one list of keys: all that a mode answers to. A subgoal's or action's own key goes before a general one. */
 export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[] {
   const choices = vocabulary === null ? [] : choiceBindings(mode, vocabulary);
   const taken = new Set(choices.flatMap((binding) => binding.keys));
-  const practicing = mode === 'feedback' || mode === 'between';
-  const shared = practicing ? [] : mode === 'waiting' ? [UNDO] : [...TASK, ...PLAYER];
-  const rest = [...answerBindings(mode), ...shared, HELP];
+  const rest = [...answerBindings(mode), ...taskBindings(mode), HELP];
   const free = rest.map((binding) => ({
     ...binding,
     keys: binding.keys.filter((key) => !taken.has(key)),
   }));
   return [...choices, ...free.filter((binding) => binding.keys.length > 0)];
+}
+
+function taskBindings(mode: Mode): readonly Binding[] {
+  if (mode === 'feedback' || mode === 'between') return [];
+  if (mode === 'waiting') return [UNDO];
+  return mode === 'hier_demo' || mode === 'flat_demo' ? TASK : [...TASK, ...PLAYER];
 }
 
 /** Keys that would do two things. */
@@ -111,6 +119,18 @@ const ACCEPT: readonly Binding[] = [
   { command: 'clear', keys: ['Backspace'], label: 'Take back the last label', group: 'Answer' },
 ];
 
+const DEMO: readonly Binding[] = [
+  { command: 'send', keys: ['Shift+Enter'], label: 'Send the demonstration', group: 'Answer', once: true },
+  { command: 'clear', keys: ['Backspace'], label: 'Take back the last move', group: 'Answer' },
+  {
+    command: 'start-over',
+    keys: ['Shift+Backspace'],
+    label: 'Start over; that can be taken back, too',
+    group: 'Answer',
+    once: true,
+  },
+];
+
 function answerBindings(mode: Mode): readonly Binding[] {
   switch (mode) {
     case 'inspect_full':
@@ -161,6 +181,19 @@ function answerBindings(mode: Mode): readonly Binding[] {
           once: true,
         },
       ];
+    case 'hier_demo':
+      return [
+        {
+          command: 'reached',
+          keys: ['Enter', 'd'],
+          label: 'The subgoal is reached; at the end, send the demonstration',
+          group: 'Answer',
+          once: true,
+        },
+        ...DEMO,
+      ];
+    case 'flat_demo':
+      return DEMO.map((one) => (one.command === 'send' ? { ...one, keys: ['Enter', ...one.keys] } : one));
     case 'waiting':
       return [];
     case 'feedback':
@@ -186,21 +219,46 @@ const DIGITS = '1234567890';
 function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
   if (mode === 'label_hi') {
     const reserved = new Set([...answerBindings(mode), UNDO, HELP].flatMap((binding) => binding.keys));
-    const initials = vocabulary.subgoals.map((name) => initial(name).toLowerCase());
-    return vocabulary.subgoals.map((name, index) => {
-      const letter = initials[index] ?? '';
-      const unique = initials.indexOf(letter) === initials.lastIndexOf(letter);
-      return choice(
-        name,
-        index,
-        unique && /^[a-z]$/.test(letter) && !reserved.has(letter) ? letter : undefined,
-      );
-    });
+    return subgoalBindings(vocabulary.subgoals, reserved);
   }
+  if (mode === 'hier_demo' || mode === 'flat_demo') return demoBindings(mode, vocabulary);
   if (mode === 'label_lo' || mode === 'label_full') {
     return vocabulary.actions.map((name, index) => choice(name, index, ARROWS[name.toLowerCase()]));
   }
   return [];
+}
+
+/** Actions have arrows or a letter each, subgoals the letters that are left, and digits; a flat one's actions have those. */
+function demoBindings(mode: 'hier_demo' | 'flat_demo', { subgoals, actions }: Vocabulary): Binding[] {
+  const taken = new Set([...answerBindings(mode), UNDO, HELP].flatMap((binding) => binding.keys));
+  const moves = actions.map((name, index): Binding => {
+    const arrow = ARROWS[name.toLowerCase()];
+    const key = arrow !== undefined && !taken.has(arrow) ? arrow : freeLetter(name, taken);
+    if (key !== undefined) taken.add(key);
+    const digit = mode === 'flat_demo' ? DIGITS[index] : undefined;
+    const keys = [key, digit].filter((one) => one !== undefined);
+    return { command: `act:${index}`, keys, label: readable(name), group: 'Answer' };
+  });
+  return mode === 'flat_demo' ? moves : [...subgoalBindings(subgoals, taken), ...moves];
+}
+
+function freeLetter(name: string, taken: ReadonlySet<string>): string | undefined {
+  const candidates = `${initial(name)}${name}abcdefghijklmnopqrstuvwxyz`.toLowerCase();
+  return [...candidates].find((letter) => /[a-z]/.test(letter) && !taken.has(letter));
+}
+
+/** A subgoal has its initial where that is free and no other's, and a digit. */
+function subgoalBindings(subgoals: readonly string[], reserved: ReadonlySet<string>): Binding[] {
+  const initials = subgoals.map((name) => initial(name).toLowerCase());
+  return subgoals.map((name, index) => {
+    const letter = initials[index] ?? '';
+    const unique = initials.indexOf(letter) === initials.lastIndexOf(letter);
+    return choice(
+      name,
+      index,
+      unique && /^[a-z]$/.test(letter) && !reserved.has(letter) ? letter : undefined,
+    );
+  });
 }
 
 function choice(name: string, index: number, key: string | undefined): Binding {

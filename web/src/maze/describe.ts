@@ -9,7 +9,7 @@ export function describeMaze(maze: Maze, tape: Tape, at: number): string {
   };
   const asked = tape.stretches.filter((stretch) => stretch.asked);
   const [first, last] = [asked[0], asked.at(-1)];
-  if (first === undefined || last === undefined) return 'A maze.';
+  if (first === undefined || last === undefined) return `A maze of rooms. The agent is ${place(at)}.`;
   const named = asked.length === 1 && first.subgoal !== null ? ` for subgoal ${first.subgoal}` : '';
   const way = `It begins ${place(first.first)} and ends ${place(last.last)}`;
   return `A maze of rooms. The way asked about${named}: ${asked.length} segments. ${way}. Now the agent is ${place(at)}.`;

@@ -1,5 +1,5 @@
 import { api, unwrap } from '../api/client';
-import { ANSWERABLE, type Answer, type Assignment, type Lease, type Me, type Receipt } from '../api/types';
+import { KINDS, type Answer, type Assignment, type Lease, type Me, type Receipt } from '../api/types';
 
 /** What the work view asks of the server, besides taking answers. */
 export interface Desk {
@@ -27,7 +27,7 @@ export interface Letter extends Held {
 export type SendAnswer = (letter: Letter, next: Lease | null) => Promise<Receipt>;
 
 export function wish(run: string | null, wait: number, ahead = false): Lease {
-  return { wait, kinds: [...ANSWERABLE], run, defer: 0, ahead };
+  return { wait, kinds: [...KINDS], run, defer: 0, ahead };
 }
 
 export function heldOf(assignment: Assignment): Held {

@@ -1,0 +1,122 @@
+"""The learner's environment, offered over the play socket while a demonstration is open, so that a person can play it.
+
+The annotator's side sends the whole demonstration each time and this side carries it out. Nothing is lost with a
+connection, an environment or a process: who connects again sends again.
+"""
+
+import logging
+import threading
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
+
+from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketException
+from websockets.frames import CloseCode
+from websockets.sync.client import ClientConnection
+
+from learner.simulator import Simulator
+from learner.translation import Translator
+from server import wire
+
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.1, 2.0  # seconds between attempts to connect
+_PASSING = frozenset({408, 429})  # refusals that later attempts may not meet, besides the server's own failures
+
+log = logging.getLogger("waypost")
+
+Connect = Callable[[], AbstractContextManager[ClientConnection]]
+
+
+class Stage:
+    """One instance's environment, carried to wherever a demonstration stands."""
+
+    def __init__(self, translator: Translator) -> None:
+        self._translator = translator
+        self._simulator = Simulator(translator.domain)
+        self._begin()
+
+    def perform(self, moves: wire.PlayMoves) -> wire.PlayStates:
+        """Carry a demonstration out and return the states that the other side does not know."""
+        names = self._translator.domain.actions
+        actions = [names.index(action) for segment in moves.segments for action in segment.actions]
+        if self._actions != actions[: len(self._actions)]:  # something was taken back
+            self._begin()
+        self._go_on(actions[len(self._actions) :])
+        known = min(moves.known, len(self._views))
+        return wire.PlayStates(
+            type="states",
+            number=moves.number,
+            known=known,
+            states=self._views[known:],
+            ended=self._simulator.ended,
+            succeeded=self._simulator.succeeded,
+        )
+
+    def _begin(self) -> None:
+        self._views = [self._simulator.reset(self._translator.instance).view]
+        self._actions: list[int] = []
+
+    def _go_on(self, actions: Sequence[int]) -> None:
+        for action in actions:
+            if self._simulator.ended:
+                break
+            self._views.append(self._simulator.step(action).view)
+            self._actions.append(action)
+
+
+class Offer:
+    """Keeps a stage connected, on a thread, until it is withdrawn or turned away for good."""
+
+    def __init__(self, connect: Connect, translator: Translator) -> None:
+        self._connect, self._translator = connect, translator
+        self._over = threading.Event()
+        self._socket: ClientConnection | None = None
+        self._lock = threading.Lock()  # between connecting and withdrawing
+        threading.Thread(target=self._run, name="stage", daemon=True).start()
+
+    def withdraw(self) -> None:
+        """Leave the socket; the thread ends by itself."""
+        with self._lock:
+            self._over.set()
+            if self._socket is not None:
+                self._socket.close()
+
+    def _run(self) -> None:
+        stage, pause = Stage(self._translator), _FIRST_PAUSE
+        while not self._over.is_set():
+            try:
+                with self._connect() as socket:
+                    pause = _FIRST_PAUSE
+                    self._play(socket, stage)
+            except (OSError, WebSocketException) as trouble:
+                if _is_final(trouble):
+                    log.warning("Nobody can play a demonstration: %s", trouble)
+                    return
+            self._over.wait(pause)
+            pause = min(2 * pause, _LONGEST_PAUSE)
+
+    def _play(self, socket: ClientConnection, stage: Stage) -> None:
+        with self._lock:
+            if self._over.is_set():
+                return
+            self._socket = socket
+        socket.send(wire.PlayOffer(type="offer").model_dump_json())
+        while True:
+            moves = wire.PlayMoves.model_validate_json(socket.recv())
+            socket.send(stage.perform(moves).model_dump_json())
+
+
+def offer(connect: Connect, translator: Translator) -> Callable[[], None]:
+    """Offer an instance's environment on a play socket; returns how to withdraw it."""
+    return Offer(connect, translator).withdraw
+
+
+def _is_final(trouble: Exception) -> bool:
+    """Return whether connecting again would meet the same refusal: one of 400 and above, or 4000 + such a status."""
+    if isinstance(trouble, InvalidStatus):
+        status = trouble.response.status_code
+    elif isinstance(trouble, ConnectionClosed) and trouble.rcvd is not None:
+        if trouble.rcvd.code == CloseCode.MESSAGE_TOO_BIG:
+            return True
+        status = trouble.rcvd.code - 4_000
+    else:
+        return False
+    return 400 <= status < 500 and status not in _PASSING

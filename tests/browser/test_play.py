@@ -1,0 +1,232 @@
+"""A demonstration played in the page with the keyboard, and all that can come in between."""
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import httpx2
+import pytest
+from playwright.sync_api import Locator, Page, expect
+from sqlalchemy import update
+
+from learner.client import Client
+from learner.domains.maze.domain import MazeDomain
+from learner.domains.maze.maze import Maze
+from learner.stage import offer
+from learner.translation import Translator
+from server import people, serving
+from server.settings import Settings
+from server.tables import assignments
+from tests.browser.conftest import Open
+from tests.browser.kit import LETTERS, START, Complaints, Json, Learner, maze, wait_for_heading
+from tests.browser.test_access import SMALL, violations
+
+QUESTION = "Carry out the whole task, one subgoal after the other."
+KEYS = {"u": "ArrowUp", "d": "ArrowDown", "l": "ArrowLeft", "r": "ArrowRight"}
+WAY = [("n", "uuu"), ("1", "uluuu"), ("e", "urrrr"), ("4", "drrrr"), ("n", "uuruu"), ("e", "rrr"), ("t", "ur")]
+SEGMENTS = [
+    {"subgoal": subgoal, "actions": [LETTERS[step] for step in steps]}
+    for subgoal, (_, steps) in zip(
+        ["north", "north", "east", "east", "north", "east", "go_to_target"], WAY, strict=True
+    )
+]
+
+Stage = Callable[..., Callable[[], None]]
+
+
+def ask(**more: object) -> Json:
+    common = {"kind": "hier_demo", "episode": 0, "ordinal": 0, "instance": maze(), "question": QUESTION}
+    return common | {"state": list(START), "max_segments": 16, "max_actions": 100} | more
+
+
+@pytest.fixture
+def stage() -> Iterator[Stage]:
+    """Offers the maze on the play socket of a query; what is offered is withdrawn when the test ends."""
+    with ExitStack() as stack:
+
+        def offered(served: serving.Served, query: int) -> Callable[[], None]:
+            user = served.db.write_now(lambda tx: people.ensure_user(tx, "learner", "learner"))
+            token = served.db.write_now(lambda tx: people.create_token(tx, user.id, "stage")).token
+            client = Client(served.url, token)
+            stack.callback(client.close)
+            withdraw = offer(lambda: client.play(query), Translator(MazeDomain(), Maze.from_json(maze())))
+            stack.callback(withdraw)
+            return withdraw
+
+        yield offered
+
+
+def is_here(page: Page) -> None:
+    """Wait until the learner's environment is there."""
+    wait_for_heading(page, QUESTION)
+    page.locator("[data-stage=here]").wait_for()
+
+
+def press(page: Page, *keys: str) -> None:
+    for key in keys:
+        page.keyboard.press(key)
+
+
+def walk(page: Page, steps: str) -> None:
+    press(page, *(KEYS[step] for step in steps))
+
+
+def way(page: Page, legs: list[tuple[str, str]]) -> None:
+    """Play segments, each reached."""
+    for key, steps in legs:
+        press(page, key)
+        walk(page, steps)
+        press(page, "Enter")
+
+
+def send(page: Page) -> None:
+    """Send what succeeded."""
+    page.get_by_text("The task is accomplished.").wait_for()
+    press(page, "Enter")
+
+
+def steps(page: Page) -> Locator:
+    return page.locator("[aria-label=Progress] strong").first
+
+
+def test_a_demonstration_is_played_with_the_keyboard(open_page: Open, learner: Learner, stage: Stage) -> None:
+    run = learner.create_run("played")
+    [query] = learner.ask(run, ask())
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, QUESTION)
+    expect(page.get_by_text("The learner is away.")).to_be_visible()
+    stage(learner.served, query)
+    is_here(page)
+    expect(page.get_by_text("Choose the first subgoal.")).to_be_visible()
+    walk(page, "u")
+    expect(page.get_by_text("Choose a subgoal first.")).to_be_visible()
+    press(page, "s", "n")  # another choice before the first step
+    walk(page, "uu")
+    press(page, "w")
+    expect(page.get_by_text("First say that the last subgoal is reached.")).to_be_visible()
+    walk(page, "l")
+    press(page, "Backspace")
+    walk(page, "u")
+    expect(page.get_by_text("this answer costs 5 units")).to_be_visible()  # 3 steps, a subgoal, a termination
+    press(page, "Shift+Backspace")
+    expect(page.get_by_text("Nothing is played yet.")).to_be_visible()
+    press(page, "Backspace", "Enter")
+    way(page, WAY[1:-1])
+    assert learner.query(query)["state"] == "leased"
+    press(page, WAY[-1][0])
+    walk(page, WAY[-1][1])
+    expect(page.get_by_text("this answer costs 42 units")).to_be_visible()
+    send(page)
+    assert learner.answer_of(query)["segments"] == SEGMENTS
+    assert learner.query(query)["units"] == 28 + 2 * 7
+
+
+def test_it_goes_on_after_a_reload_and_when_the_learner_was_gone(
+    open_page: Open, learner: Learner, stage: Stage
+) -> None:
+    run = learner.create_run("reloaded")
+    [query] = learner.ask(run, ask())
+    withdraw = stage(learner.served, query)
+    page = open_page(f"/work?run={run}")
+    is_here(page)
+    way(page, WAY[:2])
+    press(page, WAY[2][0])
+    walk(page, "ur")
+    page.reload()
+    is_here(page)
+    expect(steps(page)).to_have_text("10")
+    withdraw()
+    expect(page.get_by_text("The learner is away.")).to_be_visible()
+    walk(page, "r")
+    expect(page.get_by_text("nobody can see where a step leads")).to_be_visible()
+    expect(steps(page)).to_have_text("10")
+    stage(learner.served, query)
+    is_here(page)
+    walk(page, "rrr")
+    press(page, "Enter")
+    way(page, WAY[3:-1])
+    press(page, WAY[-1][0])
+    walk(page, WAY[-1][1])
+    send(page)
+    assert learner.answer_of(query)["segments"] == SEGMENTS
+
+
+def test_it_goes_on_when_the_server_was_started_again(
+    built_page: Path, open_page: Open, stage: Stage, complaints: Complaints, tmp_path: Path
+) -> None:
+    complaints.expect("ERR_CONNECTION_REFUSED")
+    complaints.expect("ERR_EMPTY_RESPONSE")
+    settings = Settings(database=f"sqlite:///{tmp_path / 'waypost.db'}", page=built_page)
+    with serving.background(settings) as served:
+        learner = Learner(served)
+        run = learner.create_run("restarted")
+        [query] = learner.ask(run, ask())
+        stage(served, query)
+        page = open_page(f"/work?run={run}", at=served)
+        is_here(page)
+        way(page, WAY[:1])
+        port = httpx2.URL(served.url).port
+        learner.close()
+    expect(page.get_by_text("The connection is lost.")).to_be_visible()
+    assert port is not None
+    with serving.background(settings, port=port) as served:
+        is_here(page)
+        expect(steps(page)).to_have_text("3")
+        way(page, WAY[1:-1])
+        press(page, WAY[-1][0])
+        walk(page, WAY[-1][1])
+        send(page)
+        learner = Learner(served)
+        assert learner.answer_of(query)["segments"] == SEGMENTS
+        learner.close()
+        page.close()
+
+
+def test_a_laptop_that_slept_past_the_lease_finds_the_demonstration_as_it_was(
+    open_page: Open, learner: Learner, stage: Stage, complaints: Complaints
+) -> None:
+    complaints.expect("409")
+    run = learner.create_run("asleep")
+    [query] = learner.ask(run, ask())
+    stage(learner.served, query)
+    page = open_page(f"/work?run={run}")
+    is_here(page)
+    way(page, WAY[:1])
+    over = update(assignments).where(assignments.c.query_id == query).values(expires_at=assignments.c.leased_at)
+    learner.served.db.write_now(lambda tx: tx.conn.execute(over))
+    page.evaluate("document.dispatchEvent(new Event('visibilitychange'))")  # as on waking up
+    expect(page.get_by_text("went back to the queue")).to_be_visible()
+    is_here(page)
+    expect(steps(page)).to_have_text("3")
+    way(page, WAY[1:-1])
+    press(page, WAY[-1][0])
+    walk(page, WAY[-1][1])
+    send(page)
+    assert learner.answer_of(query)["segments"] == SEGMENTS
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_what_does_not_succeed_is_sent_only_after_a_question(
+    open_page: Open, learner: Learner, stage: Stage, scheme: str
+) -> None:
+    run = learner.create_run("burnt")
+    [query] = learner.ask(run, ask())
+    stage(learner.served, query)
+    page = open_page(f"/work?run={run}", scheme=scheme, size=SMALL)
+    is_here(page)
+    way(page, WAY[:1])
+    assert violations(page) == [], "under way"
+    press(page, "n")
+    walk(page, "lluuuu")  # into the lava, and keys beyond it
+    expect(page.get_by_text("The episode ended and the task is not accomplished.")).to_be_visible()
+    assert violations(page) == [], "burnt"
+    press(page, "Enter")
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_role("button", name="Keep playing")).to_be_focused()
+    assert violations(page) == [], "asked"
+    press(page, "Enter")
+    expect(dialog).to_be_hidden()
+    assert learner.query(query)["state"] == "leased"
+    press(page, "Enter")
+    press(page, "Tab", "Enter")
+    assert learner.answer_of(query)["segments"] == [SEGMENTS[0], {"subgoal": "north", "actions": ["left", "left"]}]

@@ -1,0 +1,146 @@
+import type { AnswerOf, AskOf, DemoSegment, Json, PlayStates, Prices } from '../api/types';
+import type { Stretch, Tape } from '../player/tape';
+
+/** One thing a person did. A demonstration is the list of them, so that each can be taken back, starting over too. */
+export type Move =
+  | { readonly does: 'choose'; readonly subgoal: string }
+  | { readonly does: 'act'; readonly action: string }
+  | { readonly does: 'reach' }
+  | { readonly does: 'restart' };
+
+/** A demonstration under way. Pure: every function returns the next one. */
+export interface Demonstration {
+  readonly moves: readonly Move[];
+  readonly states: readonly Json[]; // s_1 and what the learner's environment has made of the actions so far
+  readonly ended: boolean; // the episode, in the last of these states
+  readonly succeeded: boolean; // the whole task, in the last of these states
+}
+
+/** A segment as it stands. */
+export interface Part {
+  readonly subgoal: string | null; // null in a flat demonstration
+  readonly actions: readonly string[];
+  readonly reached: boolean; // said to be over
+}
+
+type Ask = AskOf<'hier_demo'>;
+
+export function begin(ask: Ask, moves: readonly Move[] = []): Demonstration {
+  return { moves, states: [ask.state], ended: false, succeeded: false };
+}
+
+/** The segments since the last start. */
+export function partsOf({ moves }: Demonstration): Part[] {
+  const parts: Part[] = [];
+  for (const move of moves.slice(moves.findLastIndex((one) => one.does === 'restart') + 1)) {
+    const last = parts.at(-1);
+    if (move.does === 'choose') {
+      if (last && last.actions.length === 0) parts.pop(); // another choice before the first step
+      parts.push({ subgoal: move.subgoal, actions: [], reached: false });
+    } else if (move.does === 'act') {
+      const under = last && !last.reached ? last : { subgoal: null, actions: [], reached: false };
+      if (under === last) parts.pop();
+      parts.push({ ...under, actions: [...under.actions, move.action] });
+    } else if (move.does === 'reach' && last) {
+      parts.splice(-1, 1, { ...last, reached: true });
+    }
+  }
+  return parts;
+}
+
+export function segmentsOf(demonstration: Demonstration): DemoSegment[] {
+  const parts = partsOf(demonstration).filter((part) => part.actions.length > 0);
+  return parts.map(({ subgoal, actions }) => ({ subgoal, actions: [...actions] }));
+}
+
+export function countActions(parts: readonly Part[]): number {
+  return parts.reduce((sum, part) => sum + part.actions.length, 0);
+}
+
+/** Whether there are actions whose states are still to come. */
+export function isBehind(demonstration: Demonstration): boolean {
+  return countActions(partsOf(demonstration)) >= demonstration.states.length && !demonstration.ended;
+}
+
+/** Why a move cannot be made now; null if it can. */
+export function obstacle(demonstration: Demonstration, ask: Ask, move: Move): string | null {
+  const parts = partsOf(demonstration);
+  const under = parts.at(-1);
+  const isUnderWay = under !== undefined && !under.reached;
+  if (move.does === 'restart') return parts.length === 0 ? 'Nothing is played yet.' : null;
+  if (demonstration.ended) return 'The episode is over: send it, take a step back, or start over.';
+  switch (move.does) {
+    case 'choose':
+      if (isUnderWay && under.actions.length > 0) return 'First say that the last subgoal is reached.';
+      if (!isUnderWay && parts.length >= ask.max_segments)
+        return `A demonstration has at most ${ask.max_segments} segments.`;
+      return null;
+    case 'act':
+      if (!ask.flat && !isUnderWay) return 'Choose a subgoal first.';
+      if (countActions(parts) >= ask.max_actions)
+        return `A demonstration has at most ${ask.max_actions} steps.`;
+      return null;
+    case 'reach':
+      if (!isUnderWay) return 'Choose the next subgoal, or send the demonstration.';
+      return under.actions.length === 0 ? 'A segment has at least one step.' : null;
+  }
+}
+
+export function make(demonstration: Demonstration, move: Move): Demonstration {
+  return fitted({ ...demonstration, moves: [...demonstration.moves, move] });
+}
+
+/** Take the last move back. */
+export function takeBack(demonstration: Demonstration): Demonstration {
+  return fitted({ ...demonstration, moves: demonstration.moves.slice(0, -1) });
+}
+
+/** Put in what the environment made of the moves. What was played on after the end did not happen. */
+export function learn(demonstration: Demonstration, news: PlayStates): Demonstration {
+  const states = [...demonstration.states.slice(0, news.known), ...news.states];
+  const { ended, succeeded } = news;
+  const moves = ended ? upTo(demonstration.moves, states.length - 1) : demonstration.moves;
+  return { moves, states, ended, succeeded };
+}
+
+/** What an answer with these segments costs, in units; the server's own reckoning is what counts. */
+export function costOf(demonstration: Demonstration, prices: Prices): number {
+  const segments = segmentsOf(demonstration);
+  const actions = segments.reduce((sum, segment) => sum + segment.actions.length, 0);
+  const hierarchical = segments.filter((segment) => segment.subgoal !== null).length;
+  return actions * prices.action + hierarchical * (prices.subgoal + prices.termination);
+}
+
+/** The answer, once there is a step and every step has its state. */
+export function answerOf(demonstration: Demonstration): AnswerOf<'hier_demo'> | null {
+  const segments = segmentsOf(demonstration);
+  return segments.length === 0 || isBehind(demonstration) ? null : { kind: 'hier_demo', segments };
+}
+
+/** The demonstration as a renderer draws it: as far as its states are known. */
+export function tapeOf(demonstration: Demonstration): Tape {
+  const end = demonstration.states.length - 1;
+  let next = 0;
+  const stretches = partsOf(demonstration).map(({ subgoal, actions }, index): Stretch => {
+    const first = Math.min(next, end);
+    const last = Math.min(next + actions.length, end);
+    next += actions.length;
+    return { index, subgoal, first, last, actions: actions.slice(0, last - first), asked: true };
+  });
+  return { frames: demonstration.states, stretches, start: 0 };
+}
+
+/** Without the states of actions that are gone. */
+function fitted(demonstration: Demonstration): Demonstration {
+  const most = countActions(partsOf(demonstration)) + 1;
+  if (most >= demonstration.states.length) return demonstration;
+  return { ...demonstration, states: demonstration.states.slice(0, most), ended: false, succeeded: false };
+}
+
+/** The moves without those that came after so many actions since the last start. */
+function upTo(moves: readonly Move[], actions: number): readonly Move[] {
+  let left = actions;
+  const start = moves.findLastIndex((one) => one.does === 'restart') + 1;
+  const first = moves.findIndex((one, place) => place >= start && one.does === 'act' && left-- === 0);
+  return first === -1 ? moves : moves.slice(0, first);
+}

@@ -1,0 +1,53 @@
+import type { Vocabulary } from '../api/types';
+import type { Move } from './demonstration';
+
+const KEY = 'waypost:demonstrations';
+const KEPT = 6;
+
+type Drafts = readonly (readonly [query: unknown, moves: unknown])[]; // the newest last
+
+/** Demonstrations under way outlive a reload of the page and a lease that ran out, as long as the tab is there. */
+export class PlayDrafts {
+  readonly #storage: Storage;
+
+  constructor(storage: Storage) {
+    this.#storage = storage;
+  }
+
+  /** What was played of a query before; nothing if that does not fit the run. */
+  of(query: string, vocabulary: Vocabulary): readonly Move[] {
+    const moves = this.#load().find(([kept]) => kept === query)?.[1];
+    return Array.isArray(moves) && moves.every((move) => fits(move, vocabulary)) ? moves : [];
+  }
+
+  keep(query: string, moves: readonly Move[]): void {
+    const others = this.#load().filter(([kept]) => kept !== query);
+    const drafts: Drafts = [...others, [query, moves] as const].slice(-KEPT);
+    try {
+      this.#storage.setItem(KEY, JSON.stringify(drafts));
+    } catch {
+      // The storage is full or forbidden; the page itself still knows.
+    }
+  }
+
+  #load(): Drafts {
+    try {
+      const stored: unknown = JSON.parse(this.#storage.getItem(KEY) ?? '[]');
+      return Array.isArray(stored) ? stored.filter(isPair) : [];
+    } catch {
+      return [];
+    }
+  }
+}
+
+function isPair(entry: unknown): entry is [unknown, unknown] {
+  return Array.isArray(entry) && entry.length === 2;
+}
+
+function fits(move: unknown, { subgoals, actions }: Vocabulary): move is Move {
+  if (typeof move !== 'object' || move === null) return false;
+  const { does, subgoal, action } = move as Partial<Record<'does' | 'subgoal' | 'action', string>>;
+  if (does === 'choose') return subgoal !== undefined && subgoals.includes(subgoal);
+  if (does === 'act') return action !== undefined && actions.includes(action);
+  return does === 'reach' || does === 'restart';
+}

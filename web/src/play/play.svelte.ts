@@ -1,0 +1,184 @@
+import type { AnswerOf, AskOf, PlayMoves, PlayStates, Prices, Vocabulary } from '../api/types';
+import { bindingsFor, readable, type Command } from '../keys/registry';
+import type { Scene } from '../render/scene';
+import * as demos from './demonstration';
+import type { Demonstration, Move } from './demonstration';
+import type { PlayDrafts } from './drafts';
+
+export interface PlayOptions {
+  readonly draft: string; // what the demonstration is kept under
+  readonly drafts: PlayDrafts;
+  readonly ask: AskOf<'hier_demo'>;
+  readonly vocabulary: Vocabulary;
+  readonly prices: Prices;
+}
+
+export interface PlayEvents {
+  tell(moves: PlayMoves): void; // the learner's environment
+  submit(answer: AnswerOf<'hier_demo'>): void;
+  skip(): void;
+  undo(): void;
+}
+
+type Stage = 'connecting' | 'here' | 'away' | 'lost' | 'refused';
+
+/** One demonstration on the screen: what is played, what the learner's environment made of it, what every key does. */
+export class Play {
+  demonstration: Demonstration = $state.raw() as Demonstration;
+  stage: Stage = $state('connecting');
+  refusal = $state(''); // why the server will not have us play
+  hint = $state(''); // why a key did nothing
+  doubtful = $state(false); // whether to send it is asked
+  readonly bindings;
+  readonly parts = $derived.by(() => demos.partsOf(this.demonstration));
+  readonly steps = $derived.by(() => demos.countActions(this.parts));
+  readonly cost = $derived.by(() => demos.costOf(this.demonstration, this.#options.prices));
+  readonly scene: Scene = $derived.by(() => this.#scene());
+
+  readonly #options: PlayOptions;
+  readonly #events: PlayEvents;
+  #number = 0;
+  #underway: number | null = null; // the message whose states are to come
+  #outdated = false; // whether what it said was taken back since
+
+  constructor(options: PlayOptions, events: PlayEvents) {
+    const { ask, draft, drafts, vocabulary } = options;
+    this.#options = options;
+    this.#events = events;
+    this.bindings = bindingsFor(ask.flat ? 'flat_demo' : 'hier_demo', vocabulary);
+    this.demonstration = demos.begin(ask, drafts.of(draft, vocabulary));
+  }
+
+  get ask(): AskOf<'hier_demo'> {
+    return this.#options.ask;
+  }
+
+  /** The segment under way, if there is one. */
+  get current(): demos.Part | null {
+    const last = this.parts.at(-1);
+    return last && !last.reached ? last : null;
+  }
+
+  run(command: Command): void {
+    this.hint = '';
+    const { subgoals, actions } = this.#options.vocabulary;
+    const [name, index = ''] = command.split(':');
+    if (name === 'choose') this.#make({ does: 'choose', subgoal: subgoals[Number(index)] ?? '' });
+    else if (name === 'act') this.#make({ does: 'act', action: actions[Number(index)] ?? '' });
+    else if (command === 'reached') this.#reached();
+    else if (command === 'send') this.#send();
+    else if (command === 'clear') this.#takeBack();
+    else if (command === 'start-over') this.#make({ does: 'restart' });
+    else if (command === 'skip' || command === 'undo') this.#events[command]();
+  }
+
+  /** Send it although the task is not accomplished. */
+  sendAnyway(): void {
+    const answer = demos.answerOf(this.demonstration);
+    if (answer !== null) this.#events.submit(answer);
+  }
+
+  // --- what the connection says
+
+  present(isHere: boolean): void {
+    this.stage = isHere ? 'here' : 'away';
+    this.#underway = null; // whoever is there now has not heard it
+    this.#catchUp();
+  }
+
+  lost(): void {
+    this.stage = 'lost';
+  }
+
+  refused(words: string): void {
+    this.stage = 'refused';
+    this.refusal = words;
+  }
+
+  states(news: PlayStates): void {
+    if (news.number !== this.#underway) return;
+    this.#underway = null;
+    if (!this.#outdated) this.#keep(demos.learn(this.demonstration, news));
+    this.#catchUp();
+  }
+
+  // --- what the person does
+
+  #make(move: Move): void {
+    if (this.stage !== 'here' && move.does === 'act') {
+      this.hint = 'The learner’s environment is not here just now, so nobody can see where a step leads.';
+      return;
+    }
+    const obstacle = demos.obstacle(this.demonstration, this.ask, move);
+    if (obstacle !== null) {
+      this.hint = obstacle;
+      return;
+    }
+    this.#outdated ||= move.does === 'restart';
+    this.#keep(demos.make(this.demonstration, move));
+    this.#catchUp();
+  }
+
+  #takeBack(): void {
+    if (this.demonstration.moves.length === 0) {
+      this.hint = 'Nothing is played yet.';
+      return;
+    }
+    this.#outdated = true;
+    this.#keep(demos.takeBack(this.demonstration));
+    this.#catchUp();
+  }
+
+  #reached(): void {
+    if (this.demonstration.ended || this.ask.flat) this.#send();
+    else this.#make({ does: 'reach' });
+  }
+
+  #send(): void {
+    if (this.steps === 0) this.hint = 'Nothing is played yet.';
+    else if (demos.isBehind(this.demonstration))
+      this.hint = 'The last steps are not carried out yet; wait for the learner’s environment.';
+    else if (this.demonstration.succeeded) this.sendAnyway();
+    else this.doubtful = true;
+  }
+
+  #keep(demonstration: Demonstration): void {
+    this.demonstration = demonstration;
+    this.#options.drafts.keep(this.#options.draft, demonstration.moves);
+  }
+
+  /** Have the environment carry out what it has not yet; one message at a time, always the newest. */
+  #catchUp(): void {
+    if (this.stage !== 'here' || this.#underway !== null || !demos.isBehind(this.demonstration)) return;
+    this.#underway = ++this.#number;
+    this.#outdated = false;
+    this.#events.tell({
+      type: 'moves',
+      number: this.#number,
+      segments: demos.segmentsOf(this.demonstration),
+      known: this.demonstration.states.length,
+    });
+  }
+
+  #scene(): Scene {
+    const tape = demos.tapeOf(this.demonstration);
+    return {
+      instance: this.ask.instance,
+      tape,
+      vocabulary: this.#options.vocabulary,
+      at: tape.frames.length - 1,
+      current: this.current === null ? null : this.parts.length - 1,
+      labels: [],
+    };
+  }
+}
+
+/** What to do next, in a sentence. */
+export function nextStep(play: Play): string {
+  const { current, ask, steps } = play;
+  if (ask.flat)
+    return steps === 0 ? 'Carry out the task, step by step.' : 'Go on until the task is accomplished.';
+  if (current === null) return steps === 0 ? 'Choose the first subgoal.' : 'Choose the next subgoal.';
+  const subgoal = readable(current.subgoal ?? '');
+  return current.actions.length === 0 ? `Move toward “${subgoal}”.` : `Say when “${subgoal}” is reached.`;
+}

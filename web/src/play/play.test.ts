@@ -1,0 +1,219 @@
+// @vitest-environment happy-dom
+import { beforeEach, describe, expect, it } from 'vitest';
+import type { Answer, AskOf, PlayMoves, Prices, Vocabulary } from '../api/types';
+import { PlayDrafts } from './drafts';
+import { Play } from './play.svelte';
+
+const ask = {
+  kind: 'hier_demo',
+  state: 0,
+  flat: false,
+  max_segments: 3,
+  max_actions: 20,
+} as AskOf<'hier_demo'>;
+const vocabulary: Vocabulary = {
+  domain: 'corridor',
+  renderer: 'corridor',
+  subgoals: ['door', 'target'],
+  actions: ['left', 'right'],
+};
+const prices: Prices = { subgoal: 1, action: 1, termination: 1, inspect_full: 1, inspect_lo: 1 };
+const GOAL = 3;
+
+/** The page's side beside a learner who walks a line; it answers when it is asked to. */
+class Table {
+  told: PlayMoves[] = [];
+  sent: Answer[] = [];
+  readonly play: Play;
+
+  constructor(more: Partial<AskOf<'hier_demo'>> = {}) {
+    this.play = new Play(
+      {
+        draft: 'run/1',
+        drafts: new PlayDrafts(sessionStorage),
+        ask: { ...ask, ...more },
+        vocabulary,
+        prices,
+      },
+      {
+        tell: (moves) => this.told.push(moves),
+        submit: (answer) => this.sent.push(answer),
+        skip: () => undefined,
+        undo: () => undefined,
+      },
+    );
+  }
+
+  press(...commands: Parameters<Play['run']>[0][]): void {
+    for (const command of commands) this.play.run(command);
+  }
+
+  /** The environment carries out the message it was told first. */
+  reply(): void {
+    const moves = this.told.shift();
+    if (moves === undefined) throw new Error('nothing was asked');
+    const states = [0];
+    for (const action of moves.segments.flatMap((segment) => segment.actions)) {
+      const at = states.at(-1) ?? 0;
+      if (at < GOAL) states.push(at + (action === 'right' ? 1 : -1));
+    }
+    const succeeded = states.at(-1) === GOAL;
+    const { number, known } = moves;
+    this.play.states({
+      type: 'states',
+      number,
+      known,
+      states: states.slice(known),
+      ended: succeeded,
+      succeeded,
+    });
+  }
+
+  /** A learner that is there and replies at once. */
+  here(): this {
+    this.play.present(true);
+    while (this.told.length > 0) this.reply();
+    return this;
+  }
+
+  walk(...commands: Parameters<Play['run']>[0][]): void {
+    for (const command of commands) {
+      this.press(command);
+      while (this.told.length > 0) this.reply();
+    }
+  }
+}
+
+const SUCCESS = ['choose:0', 'act:1', 'reached', 'choose:1', 'act:1', 'act:1'] as const;
+
+beforeEach(() => sessionStorage.clear());
+
+describe('playing', () => {
+  it('sends what was played, once the task is accomplished, with one key', () => {
+    const table = new Table().here();
+    table.walk(...SUCCESS);
+    expect(table.play.cost).toBe(3 + 2 * 2);
+    table.press('reached');
+    expect(table.sent).toEqual([
+      {
+        kind: 'hier_demo',
+        segments: [
+          { subgoal: 'door', actions: ['right'] },
+          { subgoal: 'target', actions: ['right', 'right'] },
+        ],
+      },
+    ]);
+  });
+
+  it('asks before a demonstration is sent that does not succeed', () => {
+    const table = new Table().here();
+    table.walk('choose:0', 'act:1', 'send');
+    expect([table.sent, table.play.doubtful]).toEqual([[], true]);
+    table.play.sendAnyway();
+    expect(table.sent).toHaveLength(1);
+  });
+
+  it('sends nothing while there is nothing, or while steps are not carried out', () => {
+    const table = new Table().here();
+    table.press('send');
+    expect(table.play.hint).not.toBe('');
+    table.press('choose:0', 'act:1', 'send');
+    expect(table.play.hint).toContain('not carried out');
+    expect([table.sent, table.play.doubtful]).toEqual([[], false]);
+  });
+
+  it('says why a key does nothing', () => {
+    const table = new Table().here();
+    table.press('act:1');
+    expect(table.play.hint).toBe('Choose a subgoal first.');
+    table.press('choose:0');
+    expect(table.play.hint).toBe('');
+  });
+
+  it('has a flat demonstration sent with the key that says it is done', () => {
+    const table = new Table({ flat: true }).here();
+    table.walk('act:1', 'act:1', 'act:1', 'send');
+    expect(table.sent).toEqual([
+      { kind: 'hier_demo', segments: [{ subgoal: null, actions: ['right', 'right', 'right'] }] },
+    ]);
+  });
+});
+
+describe('the learner’s environment', () => {
+  it('is told one thing at a time, and always the newest', () => {
+    const table = new Table().here();
+    table.press('choose:0', 'act:1', 'act:1', 'act:0');
+    expect(table.told.map((moves) => moves.segments[0]?.actions)).toEqual([['right']]);
+    table.reply();
+    expect(table.told.map((moves) => [moves.segments[0]?.actions, moves.known])).toEqual([
+      [['right', 'right', 'left'], 2],
+    ]);
+    table.reply();
+    expect(table.play.demonstration.states).toEqual([0, 1, 2, 1]);
+  });
+
+  it('is not believed about what was taken back meanwhile', () => {
+    const table = new Table().here();
+    table.press('choose:0', 'act:1', 'clear', 'act:0');
+    table.reply();
+    expect(table.play.demonstration.states).toEqual([0]);
+    table.reply();
+    expect(table.play.demonstration.states).toEqual([0, -1]);
+  });
+
+  it('is not waited for when it is away: steps wait, what was played stays, and it goes on when it is back', () => {
+    const table = new Table().here();
+    table.walk('choose:0', 'act:1');
+    table.press('act:1');
+    table.play.present(false);
+    table.press('act:1');
+    expect(table.play.hint).toContain('not here');
+    expect(table.play.steps).toBe(2);
+    table.told = []; // whoever heard it is gone
+    table.here();
+    expect(table.play.demonstration.states).toEqual([0, 1, 2]);
+  });
+
+  it('has everything again after a reload, a lost connection and a lease that ran out', () => {
+    new Table().here().walk('choose:0', 'act:1', 'act:1', 'clear');
+    const reloaded = new Table();
+    expect(reloaded.play.steps).toBe(1);
+    reloaded.here();
+    expect(reloaded.play.demonstration.states).toEqual([0, 1]);
+    reloaded.play.lost();
+    reloaded.here();
+    reloaded.walk('act:1', 'act:1', 'reached');
+    expect(reloaded.sent).toHaveLength(1);
+  });
+});
+
+describe('a draft', () => {
+  it('is of one query, and dropped where it does not fit the run', () => {
+    const drafts = new PlayDrafts(sessionStorage);
+    drafts.keep('run/1', [{ does: 'choose', subgoal: 'door' }]);
+    expect(drafts.of('run/2', vocabulary)).toEqual([]);
+    expect(drafts.of('run/1', vocabulary)).toHaveLength(1);
+    expect(drafts.of('run/1', { ...vocabulary, subgoals: ['other'] })).toEqual([]);
+  });
+
+  it('is nothing where the storage holds nonsense', () => {
+    for (const nonsense of [
+      '{',
+      '7',
+      '[7]',
+      '[["run/1",7]]',
+      '[["run/1",[7]]]',
+      '[["run/1",[{"does":"fly"}]]]',
+    ]) {
+      sessionStorage.setItem('waypost:demonstrations', nonsense);
+      expect(new PlayDrafts(sessionStorage).of('run/1', vocabulary)).toEqual([]);
+    }
+  });
+
+  it('is kept of the six newest', () => {
+    const drafts = new PlayDrafts(sessionStorage);
+    for (let query = 0; query < 8; query++) drafts.keep(`run/${query}`, [{ does: 'reach' }]);
+    const kept = [...Array(8).keys()].filter((query) => drafts.of(`run/${query}`, vocabulary).length > 0);
+    expect(kept).toEqual([2, 3, 4, 5, 6, 7]);
+  });
+});
