@@ -127,7 +127,7 @@ export function tapeOf(demonstration: Demonstration): Tape {
     next += actions.length;
     return { index, subgoal, first, last, actions: actions.slice(0, last - first), asked: true };
   });
-  return { frames: demonstration.states, stretches, start: 0 };
+  return { frames: demonstration.states, pictures: demonstration.states.map(() => null), stretches, start: 0 };
 }
 
 /** Without the states of actions that are gone. */

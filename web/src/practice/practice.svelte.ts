@@ -95,6 +95,7 @@ export class PracticeSession {
       annotator: null,
       units: null,
       seconds: null,
+      active_seconds: null,
     };
     const run = rehearsal(this.#practice);
     return { id: query.id, token: '', query, run, leased_at: 0, expires_at: 0, lease_seconds: 0 };
@@ -109,6 +110,7 @@ function rehearsal({ vocabulary }: Practice): Run {
     algorithm: '',
     seed: 0,
     state: 'running',
+    priority: 0,
     vocabulary,
     config: {},
     prices: { subgoal: 0, action: 0, termination: 0, inspect_full: 0, inspect_lo: 0 },

@@ -59,7 +59,7 @@ export class Replay {
 /** A demonstration has no trajectory of the learner's: only where it starts. */
 export function tapeOf(ask: Ask): Tape {
   if (ask.kind !== 'hier_demo') return buildTape(ask.context, ask.segments);
-  return buildTape(ask.context, [{ subgoal: null, states: [ask.state], actions: [] }]);
+  return buildTape(ask.context, [{ subgoal: null, states: [ask.state], actions: [], frames: [] }]);
 }
 
 /** What the expert said about each state, as marks on the picture. */

@@ -23,6 +23,7 @@ function curvesWith(more: Partial<Curves>): Curves {
     cost: [],
     lo_cost: [],
     seconds: [],
+    active_seconds: [],
     cost_by_kind: none,
     hi_labels: [],
     lo_samples: [],
@@ -141,7 +142,7 @@ describe('runs overlaid', () => {
 });
 
 describe('one query', () => {
-  const segment = { subgoal: 'north', states: [0, 1, 2, 3], actions: ['up', 'up', 'left'] };
+  const segment = { subgoal: 'north', states: [0, 1, 2, 3], actions: ['up', 'up', 'left'], frames: [] };
 
   it('shows where the expert would have ended the segment, and no label after that', () => {
     const labels = labelsOf(
