@@ -121,13 +121,13 @@ def _plain_offer(kinds: Kinds | None, one_run: bool) -> Offer:
 
 
 def _kept_for_another() -> ColumnElement[bool]:
-    """Return the condition that a query is new and follows up on an answer of somebody else who is at work."""
+    """Return the condition that a query is new, and was asked after an answer of somebody else who is at work."""
     earlier = queries.alias("earlier")
     last_annotator = (
         select(answers.c.user_id)
         .join(earlier, earlier.c.answer_id == answers.c.id)
         .where(earlier.c.run_id == queries.c.run_id, earlier.c.episode == queries.c.episode)
-        .where(earlier.c.state == "answered")
+        .where(earlier.c.state == "answered", answers.c.created_at <= queries.c.created_at)
         .order_by(answers.c.id.desc())
         .limit(1)
         .correlate(queries)

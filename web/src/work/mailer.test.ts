@@ -81,6 +81,25 @@ describe('the mailer', () => {
     expect(answer.mock.calls.map(([sent]) => sent.key)).toEqual(['k1', 'k1', 'k1']);
   });
 
+  it('loses nothing in an outage of twenty seconds, and sends in order what came meanwhile', async () => {
+    const backAt = Date.now() + 20_000;
+    const stored: number[] = [];
+    answer.mockImplementation((sent) => {
+      if (Date.now() < backAt) return Promise.reject(new Unreachable());
+      stored.push(sent.assignment);
+      return Promise.resolve(receipt);
+    });
+    const mailer = newMailer();
+    for (const assignment of [1, 2, 3]) {
+      await mailer.send(letter(assignment), next);
+      await vi.advanceTimersByTimeAsync(3_000);
+    }
+    expect(outbox).toHaveLength(3);
+    await vi.advanceTimersByTimeAsync(11_000 + 8_000);
+    expect(stored).toEqual([1, 2, 3]);
+    expect(outbox).toEqual([]);
+  });
+
   it('sends what an earlier page left behind, and takes up the query that came with its receipt', async () => {
     save(sessionStorage, [letter(1), letter(2)]);
     const leased = { id: 9 } as unknown as NonNullable<Receipt['next']>;

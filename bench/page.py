@@ -1,0 +1,169 @@
+"""How fast the page goes on to the next query, what it weighs, and how soon it starts: `python bench/page.py`.
+
+A real Chromium against a real server process over loopback. Key to next query is from the key press to the frame that
+shows the next question; the first table has it beside Label Studio, which was measured in the same way, submitting
+with a key. Prints tables; asserts nothing.
+"""
+
+import argparse
+import gzip
+import os
+import statistics
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import httpx2
+from playwright.sync_api import Browser, BrowserContext, Page, Response, sync_playwright
+
+from bench.assignments import machine, serving
+from tests.browser.conftest import FLAGS, WEB, WIDE
+from tests.browser.kit import VOCABULARY, ask, find_chromium
+
+PAUSES = (0.0, 0.5)  # seconds between the next question on the screen and the key that answers it
+FIRST_LOADS = 5
+# Label Studio Community, `label-studio start` on SQLite, one user and a two-choice task; 15 submits by key and one cold
+# load in headless Chromium 156, on a machine with two busy cores. It sends JS and CSS as they are.
+LABEL_STUDIO = {"p50 ms": 501, "max ms": 567, "JS + CSS, kB gzipped": 2_080, "requests": 35, "first task, ms": 3_300}
+
+WATCH = """() => {
+    window.latencies = [];
+    let pressed = null;
+    window.addEventListener('keydown', () => { pressed ??= performance.now(); }, true);
+    let last = null;
+    const seen = now => {
+        const shown = document.querySelector('#question')?.dataset.query ?? null;
+        if (shown !== null && shown !== last) {
+            if (last === null) window.firstTask = now;
+            else if (pressed !== null) window.latencies.push(now - pressed);
+            [last, pressed] = [shown, null];
+        }
+        requestAnimationFrame(() => seen(performance.now()));
+    };
+    seen(performance.now());
+}"""
+
+
+class Asker:
+    """The learner's side: a run with as many queries as are wanted."""
+
+    def __init__(self, url: str, headers: dict[str, str]) -> None:
+        self._http = httpx2.Client(base_url=f"{url}/api/v1", headers=headers, timeout=60)
+
+    def run(self, n: int) -> str:
+        """Create a run and ask n questions, an episode each; return the run's id."""
+        body = {"name": f"{n} questions", "algorithm": "hg-dagger", "seed": 0, "vocabulary": VOCABULARY}
+        run = str(self._call("/runs", body)["id"])
+        asks = [ask("inspect_full", episode, question=f"Question {episode}") for episode in range(n)]
+        self._call(f"/runs/{run}/queries", {"queries": asks})
+        return run
+
+    def _call(self, path: str, body: Any) -> Any:
+        reply = self._http.post(path, json=body)
+        reply.raise_for_status()
+        return reply.json()
+
+
+@contextmanager
+def person(browser: Browser, url: str, headers: dict[str, str]) -> Iterator[BrowserContext]:
+    """A browser that has never been here, of a person who is logged in."""
+    context = browser.new_context(base_url=url, viewport=WIDE, extra_http_headers=headers)
+    context.add_init_script(f"({WATCH})()")
+    yield context
+    context.close()
+
+
+def wait_for_task(page: Page, last: str | None = None) -> str:
+    """Wait for a question other than the last one; return its number."""
+    found = page.wait_for_function(
+        """last => {
+            const now = document.querySelector('#question')?.dataset.query;
+            return now && now !== last ? now : false;
+        }""",
+        arg=last,
+    )
+    return str(found.json_value())
+
+
+def latencies(context: BrowserContext, run: str, n: int, pause: float) -> list[float]:
+    """Answer n questions; return the milliseconds from each key press to the next question."""
+    page = context.new_page()
+    page.goto(f"/work?run={run}")
+    shown = wait_for_task(page)
+    for _ in range(n):
+        time.sleep(pause)
+        page.keyboard.press("p")
+        shown = wait_for_task(page, shown)
+    page.wait_for_timeout(100)
+    return [float(one) for one in page.evaluate("window.latencies")]
+
+
+def first_load(context: BrowserContext, run: str) -> tuple[float, list[Response]]:
+    """Open the page cold; return the milliseconds to the first task, and what was fetched by then."""
+    page, fetched = context.new_page(), list[Response]()
+    page.on("response", lambda response: fetched.append(response))
+    page.goto(f"/work?run={run}")
+    wait_for_task(page)
+    return float(page.evaluate("window.firstTask")), fetched
+
+
+def gzipped(responses: list[Response]) -> float:
+    """Return the size of scripts and style sheets, each gzipped, in kB."""
+    files = [one.body() for one in responses if one.request.resource_type in {"script", "stylesheet"}]
+    return sum(len(gzip.compress(file, 6)) for file in files) / 1_000
+
+
+def table(header: list[str], rows: list[list[object]]) -> None:
+    for row in (header, ["---"] * len(header), *rows):
+        print("| " + " | ".join(str(cell) for cell in row) + " |")
+    print()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--answers", type=int, default=200, help="per row of the first table")
+    options = parser.parse_args()
+    if not (WEB / "dist" / "index.html").is_file():
+        print("The page is not built: `make web` builds it. Nothing was measured.")
+        return
+    print(f"{machine()}\n")
+    with tempfile.TemporaryDirectory(prefix="wp", dir=Path.cwd()) as folder, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=find_chromium(os.environ.get("WAYPOST_CHROMIUM")), args=FLAGS
+        )
+        print(f"Chromium {browser.version}.\n")
+        with serving(f"sqlite:///{folder}/waypost.db") as (url, _, learner, annotators):
+            measure(browser, url, Asker(url, learner), annotators[0], options.answers)
+        browser.close()
+
+
+def measure(browser: Browser, url: str, asker: Asker, annotator: dict[str, str], n_answers: int) -> None:
+    rows: list[list[object]] = []
+    for pause in PAUSES:
+        with person(browser, url, annotator) as context:
+            times = sorted(latencies(context, asker.run(n_answers + 1), n_answers, pause))
+        p95 = times[min(len(times) - 1, int(0.95 * len(times)))]
+        name = f"Waypost, {pause:g} s to think" if pause else "Waypost, no pause"
+        rows.append([name, len(times), f"{statistics.median(times):.0f}", f"{p95:.0f}", f"{times[-1]:.0f}"])
+    rows.append(["Label Studio", 15, LABEL_STUDIO["p50 ms"], "", LABEL_STUDIO["max ms"]])
+    table(["key press to next query", "answers", "p50 ms", "p95 ms", "max ms"], rows)
+
+    starts, fetched = list[float](), list[Response]()
+    for _ in range(FIRST_LOADS):
+        with person(browser, url, annotator) as context:
+            start, fetched = first_load(context, asker.run(1))
+            starts.append(start)
+            weight, n_requests = gzipped(fetched), len(fetched)
+    ours = [f"{weight:.0f}", n_requests, f"{statistics.median(starts):.0f}"]
+    theirs = [LABEL_STUDIO[name] for name in ("JS + CSS, kB gzipped", "requests", "first task, ms")]
+    table(
+        ["the first load, cold", "JS + CSS, kB gzipped", "requests to the first task", "to the first task, ms"],
+        [["Waypost", *ours], ["Label Studio", *theirs]],
+    )
+
+
+if __name__ == "__main__":
+    main()
