@@ -319,7 +319,7 @@ def test_a_login_link_opens_once(open_page: Open, served: serving.Served, compla
     page.get_by_role("heading", name="Runs").wait_for()
     assert "#" not in page.url
     used = open_page(link, role=None)
-    expect(used.get_by_role("heading", name="This login link does not work any more")).to_be_visible()
+    expect(used.get_by_role("heading", name="This login link was used before")).to_be_visible()
     assert "#" not in used.url
     signed_out = open_page("/work", role=None)
     expect(signed_out.get_by_role("heading", name="You are not signed in")).to_be_visible()

@@ -1,0 +1,169 @@
+"""People in the page: let in, sent away, their tokens and numbers; practice; gold queries nobody can tell apart."""
+
+from playwright.sync_api import Page, expect
+
+from server.serving import Served
+from tests.browser.conftest import Open
+from tests.browser.kit import Complaints, Learner, ask, wait_for_heading
+from tests.browser.test_access import violations
+
+QUESTION = ask("inspect_full")["question"]
+
+
+def shown_once(page: Page, name: str) -> str:
+    """Read what a dialog shows this once, have it copied, and close it."""
+    field = page.get_by_role("textbox", name=name)
+    expect(field).to_be_focused()
+    secret = field.input_value()
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("dialog").get_by_role("status")).to_contain_text("opied")
+    page.keyboard.press("Escape")
+    expect(field).to_be_hidden()
+    return secret
+
+
+def test_an_administrator_lets_somebody_in_and_sends_them_away(open_page: Open, complaints: Complaints) -> None:
+    complaints.expect("401")
+    complaints.expect("403")
+    admin = open_page("/people", role="admin")
+    admin.get_by_label("Name").fill("zoe of the lab")
+    admin.keyboard.press("Enter")
+    link = shown_once(admin, "Login link for zoe of the lab")
+    assert violations(admin) == []
+    zoe = open_page(link, role=None)
+    wait_for_heading(zoe, "Waiting for the learner")
+    admin.get_by_role("link", name="zoe of the lab").click()
+    admin.get_by_role("combobox", name="Role").select_option("viewer")
+    expect(admin.get_by_text("Sees everything but people, and changes nothing.")).to_be_visible()
+    expect(zoe.get_by_role("heading", name="This account cannot answer queries")).to_be_visible()
+    assert link.partition("#")[2] not in admin.content()
+    admin.get_by_role("button", name="Deactivate").click()
+    assert violations(admin) == [], "dialog"
+    admin.get_by_role("dialog").get_by_role("button", name="Deactivate").press("Enter")
+    expect(admin.get_by_text("Deactivated just now")).to_be_visible()
+    zoe.goto("/me")
+    expect(zoe.get_by_role("heading", name="You are not signed in")).to_be_visible()
+    zoe.goto(link)
+    zoe.reload()
+    expect(zoe.get_by_role("heading", name="Sign in with a link")).to_be_visible()
+
+
+def test_everybody_has_a_page_of_their_own(open_page: Open, complaints: Complaints) -> None:
+    complaints.expect("401")
+    complaints.expect("403")
+    page = open_page("/people", role="annotator")
+    expect(page.get_by_role("heading", name="This is for administrators")).to_be_visible()
+    page.get_by_role("link", name="your own page").click()
+    page.get_by_label("What it is for").fill("my laptop")
+    page.get_by_role("button", name="Create a token").press("Enter")
+    token = shown_once(page, "New API token")
+    assert page.request.get("/api/v1/me", headers={"Authorization": f"Bearer {token}"}).ok
+    expect(page.get_by_role("row", name="my laptop")).to_be_visible()
+    assert token not in page.content()
+    page.get_by_role("button", name="Revoke my laptop").click()
+    page.get_by_role("button", name="Revoke it").press("Enter")
+    expect(page.get_by_role("row", name="my laptop")).to_be_hidden()
+    page.get_by_role("button", name="Log out everywhere").click()
+    expect(page.get_by_role("heading", name="Sign in with a link")).to_be_visible()
+    page.goto("/me")
+    expect(page.get_by_role("heading", name="You are not signed in")).to_be_visible()
+
+
+def test_somebody_new_practices_by_keyboard(open_page: Open, served: Served, learner: Learner) -> None:
+    run = learner.create_run("not touched")
+    page = open_page("/practice")
+    page.get_by_role("heading", name="Practice").wait_for()
+    page.keyboard.press("Enter")
+    wait_for_heading(page, "Was the whole task accomplished?")
+    page.keyboard.press("f")
+    wait_for_heading(page, "Not right")
+    expect(page.get_by_text("The task is accomplished in the last state.")).to_be_visible()
+    page.keyboard.press("u")
+    wait_for_heading(page, "Was the whole task accomplished?")
+    page.keyboard.press("p")
+    wait_for_heading(page, "Right")
+    for verdict in ("f", "p", "f"):
+        page.keyboard.press("Enter")
+        page.locator("#question[data-query]").wait_for()
+        page.keyboard.press(verdict)
+        wait_for_heading(page, "Right")
+    for _ in range(6):  # the learner errs in each of these
+        page.keyboard.press("Enter")
+        page.locator("#question[data-query]").wait_for()
+        page.keyboard.press("Shift+Enter")
+        page.get_by_role("heading", name="right").wait_for()
+        wrong = page.locator("[aria-current=step]")
+        expect(wrong).to_contain_text("is not right")
+        page.keyboard.press("ArrowUp")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("heading", name="4 of 10 all right")).to_be_visible()
+    page.get_by_role("button", name="Again").click()
+    wait_for_heading(page, "Was the whole task accomplished?")
+    assert learner.call("GET", f"/runs/{run}/costs")["total"] == 0
+    page.get_by_role("link", name="Leave for work").click()
+    wait_for_heading(page, "Waiting for the learner")
+    expect(page.get_by_text("0 answers")).to_be_visible()
+
+
+def test_gold_queries_are_set_in_the_page_and_not_seen_by_annotators(
+    open_page: Open, learner: Learner, complaints: Complaints
+) -> None:
+    complaints.expect("403")
+    run = learner.create_run("golden")
+    learner.ask(run, *(ask("inspect_full", episode=episode) for episode in range(5)))
+    author = open_page(f"/work?run={run}")
+    wait_for_heading(author, QUESTION)
+    author.keyboard.press("f")
+    admin = open_page(f"/runs/{run}/gold", role="admin")
+    admin.get_by_role("button", name="Mark as gold").first.click()
+    expect(admin.get_by_role("heading", name="1 gold")).to_be_visible()
+    admin.get_by_label("Share of each annotator").fill("50")
+    admin.keyboard.press("Enter")
+    expect(admin.get_by_text("Saved: 50%")).to_be_visible()
+    author.close()
+    other = open_page(f"/work?run={run}")
+    before = learner.call("GET", f"/runs/{run}/costs")["total"]
+    for answered in range(1, 5):  # two of them gold
+        wait_for_heading(other, QUESTION)
+        expect(other.get_by_text("this answer costs 1 unit")).to_be_visible()
+        other.keyboard.press("f")
+        expect(other.get_by_text(f"{answered} answer")).to_be_visible()
+    other.goto("/me")
+    expect(other.get_by_role("row", name="Inspect_FULL")).to_contain_text("100%")
+    assert learner.call("GET", f"/runs/{run}/costs")["total"] == before + 2
+    other.goto(f"/runs/{run}/gold")
+    expect(other.get_by_role("heading", name="This is for administrators")).to_be_visible()
+
+
+def test_people_gold_and_practice_are_accessible(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("gold to see")
+    learner.ask(run, *(ask("label_hi", episode=episode) for episode in range(2)))
+    for scheme in ("light", "dark"):
+        page = open_page(f"/work?run={run}", role="admin", scheme=scheme)
+        wait_for_heading(page, ask("label_hi")["question"])
+        page.keyboard.press("Shift+Enter")
+        page.get_by_text("1 answer").first.wait_for()
+        for path, heading in (
+            ("/people", "People"),
+            ("/me", "person"),
+            (f"/runs/{run}/gold", "Gold queries of gold to see"),
+        ):
+            page.goto(path)
+            page.get_by_role("heading", level=1, name=heading).wait_for()
+            assert violations(page) == [], (path, scheme)
+            if path == "/people":
+                page.get_by_role("link", name="learner").click()
+                page.get_by_role("heading", level=1, name="learner").wait_for()
+                assert violations(page) == [], ("person", scheme)
+        page.get_by_role("button", name="Mark as gold").first.click()
+        page.get_by_role("button", name="Retire").first.wait_for()
+        assert violations(page) == [], ("gold", scheme)
+        page.goto("/practice")
+        page.get_by_role("heading", name="Practice").wait_for()
+        assert violations(page) == [], ("practice", scheme)
+        page.keyboard.press("Enter")
+        wait_for_heading(page, "Was the whole task accomplished?")
+        page.keyboard.press("f")
+        wait_for_heading(page, "Not right")
+        assert violations(page) == [], ("feedback", scheme)
