@@ -136,7 +136,10 @@ def test_a_query_is_seen_with_its_trajectory_its_answer_and_its_price(open_page:
     expect(page.get_by_text(re.compile("✓ the run.s account says"))).to_be_visible()
 
 
-def test_a_run_is_renamed_preferred_limited_and_finished(open_page: Open, learner: Learner) -> None:
+def test_a_run_is_renamed_preferred_limited_and_finished(
+    open_page: Open, learner: Learner, complaints: Complaints
+) -> None:
+    complaints.expect("409")  # the refusal
     run = learner.create_run("to change")
     learner.ask(run, ask("label_hi"))
     page = open_page(f"/runs/{run}", role="admin")
