@@ -66,13 +66,32 @@ def test_runs_are_accessible(open_page: Open, learner: Learner, scheme: str) -> 
     wait_for_heading(page, ask("label_hi")["question"])
     learner.report(run, [True, False, True])
     page.goto(f"/runs/{run}")
-    page.locator("canvas").first.wait_for()
+    page.get_by_role("slider").first.wait_for()
     for summary in page.get_by_text("As a table").all():
         summary.click()
     assert violations(page) == [], "run"
     page.goto("/runs")
     page.get_by_role("row", name="watched").first.wait_for()
     assert violations(page) == [], "runs"
+    page.goto(f"/runs/compare?run={run}")
+    page.get_by_role("slider").first.wait_for()
+    assert violations(page) == [], "overlaid"
+    for tab in ("ledger", "queries"):
+        page.goto(f"/runs/{run}/{tab}")
+        page.get_by_role("row", name="Inspect_FULL").wait_for()
+        assert violations(page) == [], tab
+    page.get_by_role("link", name="Inspect_FULL").click()
+    page.get_by_role("heading", name="In the ledger").wait_for()
+    assert violations(page) == [], "query"
+
+
+def test_dialogs_of_a_run_are_accessible(open_page: Open, learner: Learner, scheme: str) -> None:
+    page = open_page(f"/runs/{learner.create_run('dialogs of a run')}", role="admin", scheme=scheme)
+    for name in ("Change…", "Finish…"):
+        page.get_by_role("button", name=name).click()
+        page.get_by_role("dialog").wait_for()
+        assert violations(page) == [], name
+        page.keyboard.press("Escape")
 
 
 def test_login_is_accessible(open_page: Open, scheme: str) -> None:

@@ -1,5 +1,9 @@
 """The list of runs and the page of a run, live."""
 
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
 from playwright.sync_api import expect
 
 from tests.browser.conftest import Open
@@ -14,17 +18,24 @@ def test_a_run_is_followed_live(open_page: Open, learner: Learner) -> None:
     expect(page.get_by_text("The learner has asked nothing yet.")).to_be_visible()
     learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
     expect(page.get_by_text("6 units reserved")).to_be_visible()
-    expect(page.get_by_role("row", name="Label_HI 0.1 open")).to_be_visible()
+    asked = page.get_by_role("row", name="Label_HI 0.1")
+    expect(asked).to_contain_text("open")
     learner.report(run, [False, True])
     expect(page.get_by_role("row", name="1 50%")).to_be_hidden()
     page.get_by_text("As a table").first.click()
     expect(page.get_by_role("row", name="1 50%")).to_be_visible()
-    expect(page.locator("canvas").first).to_be_visible()
+    chart = page.get_by_role("slider", name="Success on unseen instances")
+    expect(chart.locator("svg")).to_be_visible()
+    learner.report(run, [False, True, True])
+    expect(chart).to_have_attribute("aria-valuetext", re.compile("^episode 2: Success 66.7%"))
 
     worker = open_page(f"/work?run={run}")
     wait_for_heading(worker, ask("inspect_full")["question"])
     worker.keyboard.press("f")
-    expect(page.get_by_role("row", name="Inspect_FULL 0.0 answered ✗ fail person-")).to_be_visible()
+    answered = page.get_by_role("row", name="Inspect_FULL 0.0")
+    expect(answered).to_contain_text("answered")
+    expect(answered).to_contain_text("✗ fail")
+    expect(answered).to_contain_text("person-")
     expect(page.get_by_text("of 100 units")).to_be_visible()
 
 
@@ -62,6 +73,131 @@ def test_the_list_leads_to_the_run_and_back(open_page: Open, learner: Learner) -
     expect(page.get_by_role("heading", name="on the list")).to_be_visible()
     page.go_back()
     expect(page.get_by_role("heading", name="Runs")).to_be_visible()
+
+
+def test_runs_are_found_sorted_and_overlaid(open_page: Open, learner: Learner) -> None:
+    config = {"preset": "lean"}
+    for seed in range(2):
+        run = learner.create_run(f"twin {seed}", seed=seed, config=config | {"seed": seed})
+        learner.report(run, [seed == 0, True])
+    page = open_page("/runs")
+    page.get_by_role("searchbox", name="Find a run").fill("twin")
+    expect(page.get_by_role("row").filter(has_text="twin")).to_have_count(2)
+    expect(page).to_have_url(re.compile("text=twin"))
+    page.get_by_role("button", name="Success").click()
+    expect(page.get_by_role("columnheader", name="Success")).to_have_attribute("aria-sort", "descending")
+    expect(page.get_by_role("row").nth(1)).to_contain_text("twin 0")
+    for seed in range(2):
+        page.get_by_role("checkbox", name=f"Choose twin {seed}").check()
+    page.get_by_role("link", name="Overlay 2 chosen").click()
+    expect(page.get_by_role("heading", name="2 runs overlaid")).to_be_visible()
+    shared = page.url
+    chart = page.get_by_role("slider", name="Success on unseen instances")
+    chart.focus()
+    page.keyboard.press("Home")
+    expect(chart).to_have_attribute("aria-valuetext", "episode 0: hg-dagger (2 runs) 50% (0% to 100%)")
+    page.keyboard.press("ArrowRight")
+    expect(chart).to_have_attribute("aria-valuetext", "episode 1: hg-dagger (2 runs) 75% (50% to 100%)")
+    page.get_by_role("checkbox", name="differ only by seed").uncheck()
+    expect(chart).to_have_attribute("aria-valuetext", re.compile("twin 0 .*twin 1"))
+    other = open_page(shared.removeprefix(page.url.split("/runs")[0]))
+    expect(other.get_by_role("heading", name="2 runs overlaid")).to_be_visible()
+    learner.report(run, [False, True, True])
+    other_chart = other.get_by_role("slider", name="Success on unseen instances")
+    expect(other_chart).to_have_attribute("aria-valuemax", "2")
+
+
+def test_a_query_is_seen_with_its_trajectory_its_answer_and_its_price(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("watched query")
+    learner.ask(run, ask("label_lo"), ask("inspect_full", ordinal=1))
+    worker = open_page(f"/work?run={run}")
+    wait_for_heading(worker, ask("label_lo")["question"])
+    page = open_page(f"/runs/{run}", role="viewer")
+    expect(page.get_by_role("listitem").filter(has_text="Label_LO, ep. 0")).to_contain_text("person-")
+    page.get_by_role("link", name="Queries", exact=True).click()
+    page.get_by_role("combobox", name="Kind").select_option("label_lo")
+    expect(page.get_by_role("row")).to_have_count(2)
+    page.get_by_role("link", name="Label_LO").click()
+    expect(page.get_by_role("heading", name=ask("label_lo")["question"])).to_be_visible()
+    expect(page.get_by_text("No answer yet.")).to_be_visible()
+    worker.keyboard.press("x")
+    worker.keyboard.press("Shift+Enter")
+    expect(page.get_by_role("list", name="Label by state")).to_be_visible()
+    expect(page.get_by_role("row", name="answered: ")).to_be_visible()
+    expect(page.get_by_role("region", name="In the ledger")).to_contain_text("charge")
+    slider = page.get_by_role("slider", name="Step")
+    page.keyboard.press("Home")
+    expect(slider).to_have_attribute("aria-valuetext", re.compile("subgoal east"))
+    page.keyboard.press("ArrowLeft")
+    expect(slider).to_have_attribute("aria-valuetext", re.compile("subgoal north"))
+    page.get_by_role("link", name="Next →").click()
+    expect(page.get_by_role("heading", name=ask("inspect_full")["question"])).to_be_visible()
+    page.goto(f"/runs/{run}/ledger")
+    expect(page.get_by_text(re.compile("✓ the run.s account says"))).to_be_visible()
+
+
+def test_a_run_is_renamed_preferred_limited_and_finished(
+    open_page: Open, learner: Learner, complaints: Complaints
+) -> None:
+    complaints.expect("409")  # the refusal
+    run = learner.create_run("to change")
+    learner.ask(run, ask("label_hi"))
+    page = open_page(f"/runs/{run}", role="admin")
+    page.get_by_role("button", name="Change…").click()
+    page.get_by_role("textbox", name="Name").fill("changed")
+    page.get_by_role("spinbutton", name="Priority").fill("7")
+    page.get_by_role("checkbox", name="The run may cost at most").check()
+    page.get_by_role("spinbutton", name="Units").fill("4")
+    page.get_by_role("button", name="Save").click()
+    expect(page.get_by_role("alert")).to_contain_text("the budget cannot be less than 5")
+    page.get_by_role("spinbutton", name="Units").fill("5.5")
+    page.get_by_role("button", name="Save").click()
+    expect(page.get_by_role("dialog")).to_be_hidden()
+    expect(page.get_by_role("heading", name="changed")).to_be_visible()
+    now = learner.call("GET", f"/runs/{run}")
+    assert (now["name"], now["priority"], now["budget"]) == ("changed", 7, 5.5)
+    page.get_by_role("button", name="Finish…").click()
+    expect(page.get_by_role("dialog")).to_contain_text("1 open query will be cancelled")
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_be_hidden()
+    assert learner.call("GET", f"/runs/{run}")["state"] == "running"
+    page.get_by_role("button", name="Finish…").click()
+    page.get_by_role("button", name="Finish it").click()
+    expect(page.get_by_text("finished").first).to_be_visible()
+    expect(page.get_by_role("button", name="Finish…")).to_be_hidden()
+    assert learner.call("GET", f"/runs/{run}")["reserved"] == 0
+
+
+def test_charts_and_tables_are_downloaded(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("<svg onload=alert(1)> & =1+1")
+    learner.report(run, [False, True])
+    page = open_page(f"/runs/{run}", scheme="dark")
+    group = page.get_by_role("group", name="Download Success on unseen instances")
+
+    def downloaded(name: str) -> bytes:
+        with page.expect_download() as waiting:
+            group.get_by_role("button", name=name).click()
+        assert waiting.value.suggested_filename.endswith(f".{name.lower()}")
+        return Path(waiting.value.path()).read_bytes()
+
+    drawing = ElementTree.fromstring(downloaded("SVG"))
+    texts = [element.text for element in drawing.iter("{http://www.w3.org/2000/svg}text")]
+    assert "Success on unseen instances, trailing 100" in texts
+    assert "<svg onload=alert(1)> & =1+1 · hg-dagger, maze, seed 0" in texts
+    (line,) = (path for path in drawing.iter() if path.get("stroke-width") == "2px" and path.get("d"))
+    assert line.get("stroke", "").startswith("rgb"), "its colors are its own"
+    picture = downloaded("PNG")
+    assert picture.startswith(b"\x89PNG")
+    width = int.from_bytes(picture[16:20], "big")
+    assert width == 2 * int(drawing.get("width", "0"))
+    assert downloaded("CSV").decode().splitlines() == [
+        "series,episode,value,low,high",
+        "Success,0,0,,",
+        "Success,1,0.5,,",
+    ]
+    with page.expect_download() as waiting:
+        page.get_by_role("group", name="Download the curves").get_by_role("link", name="CSV").click()
+    assert waiting.value.suggested_filename == f"{run}-curves.csv"
 
 
 def test_names_are_text(open_page: Open, learner: Learner) -> None:

@@ -43,10 +43,10 @@ export function scale(low: number, high: number, from: number, to: number): Scal
   return (value) => from + (value - low) * factor;
 }
 
-/** Round numbers from `low` to `high`, about `count` of them. */
-export function ticks(low: number, high: number, count: number): number[] {
+/** Round numbers from `low` to `high`, about `count` of them, at least `apart` from each other. */
+export function ticks(low: number, high: number, count: number, apart = 0): number[] {
   if (!(high > low) || count < 1) return [low];
-  const rough = (high - low) / count;
+  const rough = Math.max((high - low) / count, apart);
   const power = 10 ** Math.floor(Math.log10(rough));
   const unit = [1, 2, 5, 10].find((one) => one * power >= rough * 0.999) ?? 10;
   const step = unit * power;

@@ -29,6 +29,10 @@ describe('axes', () => {
     expect(ticks(low, high, count)).toEqual(expected);
   });
 
+  it('of episodes have no half ones', () => {
+    expect(ticks(0, 2, 6, 1)).toEqual([0, 1, 2]);
+  });
+
   it('hold all that is drawn', () => {
     const mark = markOf(0);
     const series: Series[] = [

@@ -190,14 +190,15 @@ export interface Band {
 }
 
 /**
- * The median and range of runs, each a step function, on one grid: from where all have begun to the median of their
- * ends. A finished run that ended before keeps its last value; an unfinished one is left out from its end on.
+ * The median and range of runs, each a step function, on one grid: from where all have begun to as far as half of them
+ * went. A finished run that ended before keeps its last value; an unfinished one is left out from its end on.
  */
 export function bandOf(tracks: readonly Track[]): Band | null {
   const begun = tracks.filter((track) => track.x.length > 0);
   if (begun.length === 0) return null;
   const start = Math.max(...begun.map((track) => track.x[0] ?? 0));
-  const end = Math.max(start, median(begun.map((track) => track.x.at(-1) ?? 0)));
+  const ends = begun.map((track) => track.x.at(-1) ?? 0).sort((a, b) => a - b);
+  const end = Math.max(start, ends[ends.length >> 1] ?? 0);
   const rows = begun
     .flatMap((track) => track.x)
     .map((x) => Math.min(Math.max(x, start), end))
