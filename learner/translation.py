@@ -135,7 +135,7 @@ class Translator:
             state = states[-1]
         return tuple(sigma)
 
-    def _parted(self, before: Sequence[Segment], segment: Segment) -> dict[str, list[wire.Segment]]:
+    def _parted(self, before: Sequence[Segment], segment: Segment) -> dict[str, Any]:
         """Return a segment to ask about, and what came before it."""
         *context, asked = self._segments([*before, segment])
         return {"segments": [asked], "context": context}
