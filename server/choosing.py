@@ -80,9 +80,10 @@ _LOCK_ONE = select(queries.c.id).where(queries.c.id == bindparam("query"), IS_OP
 
 def take(tx: Tx, taker: Taker) -> int | None:
     """Lock and return the next query: a follow-up if nothing has a higher priority, else the first."""
-    offer = _offer(tx, taker)
+    n_others = presence.others(tx, taker.user, taker.presence_seconds)
+    offer = _offer(tx, taker, n_others > 0)
     known = taker.known(tx.now)
-    if taker.ahead and not _enough_for_others(tx, taker, offer, known):
+    if taker.ahead and not _is_enough(tx, offer, known, n_others):
         return None
     chosen = tx.conn.execute(offer.first, known).one_or_none()
     if chosen is None:
@@ -101,23 +102,23 @@ def take(tx: Tx, taker: Taker) -> int | None:
     return None if locked is None else int(locked.id)
 
 
-def _enough_for_others(tx: Tx, taker: Taker, offer: Offer, known: dict[str, Any]) -> bool:
+def _is_enough(tx: Tx, offer: Offer, known: dict[str, Any], n_others: int) -> bool:
     """Return whether there is a query for everybody else at work, and one more."""
-    n_others = presence.others(tx, taker.user, taker.presence_seconds)
     return len(tx.conn.execute(offer.offered.limit(n_others + 1), known).all()) > n_others
 
 
-def _offer(tx: Tx, taker: Taker) -> Offer:
+def _offer(tx: Tx, taker: Taker, shared: bool) -> Offer:
+    """Return what a taker may have; `shared` if others are at work."""
     if taker.defer == 0:
-        return _plain_offer(taker.kinds, taker.run is not None)
+        return _plain_offer(taker.kinds, taker.run is not None, shared)
     others = presence.who_would_take(tx, taker.presence_seconds)
     old = queries.c.created_at <= tx.now - taker.defer
-    return Offer.among(_offered(taker.kinds, taker.run is not None).where(or_(old, not_(others))))
+    return Offer.among(_offered(taker.kinds, taker.run is not None, shared).where(or_(old, not_(others))))
 
 
 @lru_cache(maxsize=256)
-def _plain_offer(kinds: Kinds | None, one_run: bool) -> Offer:
-    return Offer.among(_offered(kinds, one_run))
+def _plain_offer(kinds: Kinds | None, one_run: bool, shared: bool) -> Offer:
+    return Offer.among(_offered(kinds, one_run, shared))
 
 
 def _kept_for_another() -> ColumnElement[bool]:
@@ -142,15 +143,17 @@ def _kept_for_another() -> ColumnElement[bool]:
     return and_(queries.c.created_at > bindparam("fresh"), other)
 
 
-def _offered(kinds: Kinds | None, one_run: bool) -> Select[Any]:
+def _offered(kinds: Kinds | None, one_run: bool, shared: bool) -> Select[Any]:
     """Return the open queries an annotator may have, best first."""
     skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == bindparam("user"))
     running = exists().where(runs.c.id == queries.c.run_id, runs.c.state == "running")
     offered = (
         select(queries.c.id, queries.c.run_priority, queries.c.priority)
-        .where(IS_OPEN, running, ~skipped, ~_kept_for_another())
+        .where(IS_OPEN, running, ~skipped)
         .order_by(queries.c.run_priority.desc(), queries.c.priority.desc(), queries.c.id)
     )
+    if shared:
+        offered = offered.where(~_kept_for_another())
     if kinds is not None:
         offered = offered.where(queries.c.kind.in_(kinds))
     if one_run:

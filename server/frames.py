@@ -29,7 +29,7 @@ def decode(upload: wire.FrameUpload, most_bytes: int) -> dict[str, bytes]:
 
 
 def _decode(frame: wire.Frame, place: int, most_bytes: int) -> bytes:
-    at = ["body", "frames", place]
+    at: list[str | int] = ["body", "frames", place]
     try:
         png = base64.b64decode(frame.png, validate=True)
     except binascii.Error as error:
