@@ -25,7 +25,7 @@ from learner.commands import (
 from learner.experiments import cli as experiments_cli
 from server import cli as server_cli
 from server.cli import JsonOption, refuse
-from server.wire import EpisodeResult, Receipt, Run
+from server.wire import EpisodeResult, Receipt, Run, RunPatch
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -170,6 +170,30 @@ def demo(
         from learner.demo import run_demo
 
         run_demo(port, database, episodes, instances)
+
+
+@app.command()
+def gold(
+    run: Annotated[str, typer.Argument(help="The run's id.")],
+    server: Annotated[str, typer.Option(help="The server.")] = "http://127.0.0.1:8000",
+    token: TokenOption = "",
+    queries: Annotated[
+        int, typer.Option(min=1, max=1_000, help="How many of its answered queries, newest first.")
+    ] = 20,
+    rate: Annotated[
+        float | None, typer.Option(min=0, max=0.5, help="Share of each annotator's queries that are gold.")
+    ] = None,
+    patience: PatienceOption = 300.0,
+) -> None:
+    """Make queries of a run gold, with all that is right by the oracle of its domain."""
+    with learner_errors():
+        from learner.client import Client
+        from learner.gold import make_gold
+
+        client = Client(server, needed(token), patience=patience)
+        found = make_gold(client, run, queries)
+        share = client.patch_run(run, RunPatch(gold_rate=rate)) if rate is not None else client.run(run)
+    typer.echo(f"The run has {found} gold queries; {share.gold_rate:.1%} of what each annotator gets is gold.")
 
 
 @app.command()

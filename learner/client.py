@@ -136,6 +136,10 @@ class Client:
         """Report what episodes brought."""
         return self._call(wire.Run, "POST", f"/runs/{run}/episodes", wire.EpisodeList(episodes=list(episodes)))
 
+    def add_gold(self, run: str, gold: wire.GoldPost) -> list[wire.Gold]:
+        """Make queries gold; returns all gold queries of the run, newest first."""
+        return self._call(wire.GoldList, "POST", f"/runs/{run}/gold", gold).gold
+
     def costs(self, run: str) -> wire.Costs:
         """Return the sums of the ledger."""
         return self._call(wire.Costs, "GET", f"/runs/{run}/costs")

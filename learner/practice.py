@@ -17,7 +17,7 @@ from learner.types import Segment, Trajectory, n_actions
 from server import wire
 
 WRONG_SUBGOAL, WRONG_ACTION, WRONG_END = 0.12, 0.04, 0.1  # how often the learner errs
-CANDIDATES = 400  # rollouts that the exercises are picked from
+CANDIDATES = 150  # rollouts that the exercises are picked from
 MOST_ACTIONS, MOST_SEGMENTS = 14, 6  # an exercise is short
 
 
@@ -31,15 +31,17 @@ class Rollout:
 
 
 def practice(domain: Domain, instances: str, seed: int) -> str:
-    """Return the text of the file of practice queries: two of each kind, the inspections one to pass and one to fail.
+    """Return the text of the file of practice queries: two of each kind, as far as the rollouts have them.
 
     Raises:
         ValueError: the domain has no oracle, or nothing to pick from came of the rollouts.
     """
     rollouts = list(islice(_rollouts(domain, instances, seed), CANDIDATES))
-    exercises = [
-        _exercise(domain, rollouts, place, pick) for place, pick in enumerate(_picks()) if domain.subgoals or pick.flat
-    ]
+    picks = [pick for pick in _picks() if domain.subgoals or pick.flat]
+    found = [_exercise(domain, rollouts, place, pick) for place, pick in enumerate(picks)]
+    exercises = [one for one in found if one is not None]
+    if not exercises:
+        raise ValueError("the rollouts gave nothing to practice on: try another --seed")
     lines = ",\n".join(json.dumps(one, ensure_ascii=False) for one in exercises)
     return f'{{"vocabulary": {vocabulary(domain).model_dump_json()},\n"exercises": [\n{lines}\n]}}\n'
 
@@ -92,11 +94,11 @@ def _picks() -> list[Pick]:
         Pick(_label_lo, lambda known, ask: (_errors(known, ask) == 1 and not _ends_early(known, ask)) * _length(ask)),
         Pick(_label_lo, lambda known, ask: _ends_early(known, ask) * _length(ask)),
         Pick(_label_full, lambda known, ask: (_errors(known, ask) == 1) * _length(ask), flat=True),
-        Pick(_label_full, lambda known, ask: (_errors(known, ask) == 2) * _choices(known), flat=True),
+        Pick(_label_full, lambda known, ask: (_errors(known, ask) == 2) * (1 + _choices(known)), flat=True),
     ]
 
 
-def _exercise(domain: Domain, rollouts: list[Rollout], place: int, pick: Pick) -> dict[str, Any]:
+def _exercise(domain: Domain, rollouts: list[Rollout], place: int, pick: Pick) -> dict[str, Any] | None:
     best: tuple[float, dict[str, Any]] = (0.0, {})
     for rollout in rollouts:
         translator = Translator(domain, rollout.instance)
@@ -107,9 +109,7 @@ def _exercise(domain: Domain, rollouts: list[Rollout], place: int, pick: Pick) -
             if worth > best[0]:
                 exercise = wire.KnownAsk(ask=ask, known=solution.known).model_dump(mode="json")
                 best = (worth, {**exercise, "reasons": list(solution.reasons)})
-    if not best[1]:
-        raise ValueError(f"no rollout gave exercise {place + 1}: try another --seed")
-    return best[1]
+    return best[1] or None
 
 
 # --- the queries of a rollout that are short enough

@@ -12,6 +12,7 @@ import httpx2
 import pytest
 from typer.testing import CliRunner
 
+from server import accounts, people, wire
 from server.cli import app
 from server.database import Database
 from tests.server.kit import API
@@ -34,6 +35,33 @@ def test_users_and_tokens_are_made_on_the_command_line(sqlite_url: str) -> None:
     assert re.fullmatch(r"http://h/login#wp_[\w-]{43}", run("login-link", "zoe", "--base", "http://h/", *at))
 
 
+def test_users_are_changed_on_the_command_line(sqlite_url: str) -> None:
+    at = ("--database", sqlite_url)
+    run("user", "add", "ann", "--role", "admin", *at)
+    run("user", "add", "zoe", *at)
+    run("token", "create", "zoe", "--label", "laptop", *at)
+    assert "laptop" in run("token", "list", "zoe", *at)
+    assert json.loads(run("token", "list", "zoe", "--json", *at))["tokens"][0]["last_used_at"] is None
+    run("user", "role", "zoe", "viewer", *at)
+    run("user", "deactivate", "zoe", *at)
+    assert re.search(r"viewer +zoe +\(deactivated\)", run("user", "list", *at))
+    assert run("token", "list", "zoe", *at) == ""
+    assert "deactivated; reactivate" in run("login-link", "zoe", *at, status=2)
+    run("user", "reactivate", "zoe", *at)
+    assert "/login#wp_" in run("login-link", "zoe", "--hours", "24", *at)
+    assert "only administrator" in run("user", "deactivate", "ann", *at, status=2)
+
+
+def test_serve_lets_some_administrator_in_whoever_is_left(sqlite_url: str) -> None:
+    db = Database(sqlite_url)
+    for name in ("admin", "ann"):
+        db.write_now(lambda tx, name=name: people.create_user(tx, name, "admin"))
+    assert db.write_now(people.an_administrator).name == "admin"
+    db.write_now(lambda tx: accounts.change(tx, 1, wire.UserPatch(active=False)))
+    assert db.write_now(people.an_administrator).name == "ann"
+    db.close()
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -45,6 +73,8 @@ def test_users_and_tokens_are_made_on_the_command_line(sqlite_url: str) -> None:
             "Cannot open sqlite:////no/such/folder/x.db",
         ),
         (["token", "create", "nobody"], "There is no user named 'nobody'"),
+        (["user", "role", "nobody", "viewer"], "There is no user named 'nobody'"),
+        (["user", "role", "nobody", "king"], "'king' is no role"),
         (["token", "revoke", "77"], "There is no token 77."),
         (["login-link", "nobody"], "There is no user named 'nobody'"),
         (["serve", "--lease", "-1"], "The setting lease_seconds is not valid"),

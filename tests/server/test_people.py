@@ -1,12 +1,14 @@
 """People and programs: one-time logins, sessions, tokens, and what each role may do."""
 
+import time
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import httpx2
 import pytest
 
 from server import people
-from tests.server.kit import API, Service, in_process, query
+from tests.server.kit import API, Caller, Service, in_process, query, together
 
 SAME = {"Sec-Fetch-Site": "same-origin"}
 
@@ -158,3 +160,169 @@ def test_broken_credentials_are_refused_not_crashed_on(lite: Service) -> None:
     ]
     for headers in broken:
         assert lite.client.get(f"{API}/me", headers=headers).status_code == 401
+
+
+def id_of(service: Service, name: str) -> int:
+    return service.db.read_now(lambda tx: people.named(tx, name)).id
+
+
+@pytest.mark.parametrize(
+    ("spoil", "problem"),
+    [("nothing", "unauthenticated"), ("use", "login-used"), ("deactivate", "deactivated"), ("wait", "login-expired")],
+)
+def test_a_login_link_that_does_not_work_says_why(lite: Service, spoil: str, problem: str) -> None:
+    code = code_for(lite)
+    if spoil == "nothing":
+        code = code[:-1]
+    elif spoil == "use":
+        log_in(lite, code)
+    elif spoil == "deactivate":
+        lite.admin.call("PATCH", f"/users/{id_of(lite, 'abe')}", {"active": False})
+    else:
+        code = lite.db.write_now(lambda tx: people.create_login(tx, 1, -1)).code
+    refused = log_in(lite, code)
+    assert (refused.status_code, refused.json()["type"]) == (401, f"/problems/{problem}")
+    assert code not in refused.text
+
+
+def test_an_administrator_chooses_how_long_a_link_is_good(lite: Service) -> None:
+    path = f"/users/{id_of(lite, 'abe')}/login-links"
+    usual, long = (lite.admin.post(path, body, 201)["expires_at"] for body in (None, {"seconds": 86_400}))
+    assert 86_400 - 900 - 60 < long - usual < 86_400 - 900 + 60
+    lite.admin.post(path, {"seconds": 8 * 86_400}, 422)
+
+
+def test_a_session_lives_on_while_it_is_used(sqlite_url: str) -> None:
+    with in_process(sqlite_url, session_seconds=1_000) as service:
+        log_in(service, code_for(service))
+        assert "set-cookie" not in service.client.get(f"{API}/me").headers, "it is new"
+        service.db.write_now(
+            lambda tx: tx.conn.exec_driver_sql(
+                "UPDATE credentials SET expires_at = expires_at - 500 WHERE kind = 'session'"
+            )
+        )
+        left = service.client.get(f"{API}/me/sessions").json()["sessions"][0]
+        renewed = service.client.get(f"{API}/me")
+        assert "Max-Age=1000" in renewed.headers["set-cookie"]
+        now = service.client.get(f"{API}/me/sessions").json()["sessions"][0]
+        assert now["expires_at"] - left["expires_at"] == pytest.approx(500, abs=60)
+        assert now["current"]
+
+
+def test_logging_out_everywhere_ends_every_browser_and_no_token(service: Service) -> None:
+    log_in(service, code_for(service))
+    first = dict(service.client.cookies)
+    service.client.cookies.clear()
+    log_in(service, code_for(service))
+    assert len(service.client.get(f"{API}/me/sessions").json()["sessions"]) == 2
+    assert service.client.delete(f"{API}/me/sessions", headers=SAME).status_code == 204
+    for session in (first, dict(service.client.cookies)):
+        service.client.cookies.clear()
+        service.client.cookies.update(session)
+        assert service.client.get(f"{API}/me").status_code == 401
+    service.client.cookies.clear()
+    assert service.annotator.get("/me")["name"] == "abe"
+
+
+def test_who_is_deactivated_is_out_at_once_and_their_answers_stay(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, query(), query(ordinal=1), query(ordinal=2))
+    service.annotator.answer(service.annotator.lease())
+    held = service.annotator.lease()
+    abe = id_of(service, "abe")
+    code = code_for(service)
+    log_in(service, code_for(service))
+    changed = service.admin.call("PATCH", f"/users/{abe}", {"active": False})
+    assert changed["deactivated_at"] is not None
+    assert service.client.get(f"{API}/me").status_code == 401
+    service.annotator.get("/me", 401)
+    service.annotator.answer(held, expect=401)
+    assert log_in(service, code).status_code == 401
+    assert service.admin.lease()["query"]["id"] == held["query"]["id"], "it is free again"
+    assert service.admin.get(f"/users/{abe}/numbers")["total"]["answers"] == 1
+    for path, body in ((f"/users/{abe}/login-links", None), ("/tokens", {"user": abe})):
+        assert service.admin.post(path, body, 409)["type"] == "/problems/not-active"
+    back = service.admin.call("PATCH", f"/users/{abe}", {"active": True})
+    assert back["deactivated_at"] is None
+    service.annotator.get("/me", 401)  # what was ended stays so
+    service.client.cookies.clear()
+    assert log_in(service, code_for(service)).status_code == 200
+
+
+@pytest.mark.parametrize(("role", "given_back"), [("viewer", True), ("learner", True), ("admin", False)])
+def test_who_may_no_longer_answer_gives_their_leases_back(service: Service, role: str, given_back: bool) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    held = service.annotator.lease()
+    assert service.admin.call("PATCH", f"/users/{id_of(service, 'abe')}", {"role": role})["role"] == role
+    service.admin.lease(201 if given_back else 204)
+    service.annotator.answer(held, expect=403 if given_back else 200)
+
+
+def test_somebody_who_waits_for_work_while_deactivated_gets_none(lite: Service) -> None:
+    with ThreadPoolExecutor() as pool:
+        waiting = pool.submit(lite.annotator.lease, 401, wait=30)
+        time.sleep(0.3)
+        lite.admin.call("PATCH", f"/users/{id_of(lite, 'abe')}", {"active": False})
+        lite.learner.ask(lite.learner.create_run(), query())
+        waiting.result()
+
+
+@pytest.mark.parametrize("change", [{"active": False}, {"role": "viewer"}, {"role": "annotator", "active": False}])
+def test_the_last_administrator_stays(service: Service, change: dict[str, Any]) -> None:
+    ann = id_of(service, "ann")
+    refused = service.admin.call("PATCH", f"/users/{ann}", change, 409)
+    assert refused["type"] == "/problems/last-administrator"
+    second = service.user("eve", "admin")
+    service.admin.call("PATCH", f"/users/{ann}", change)
+    second.call("PATCH", f"/users/{id_of(service, 'eve')}", change, 409)
+
+
+def test_two_administrators_cannot_send_each_other_away(database_url: str) -> None:
+    with in_process(database_url) as service:
+        pair = [service.admin, service.user("eve", "admin")]
+        ids = [id_of(service, caller.name) for caller in pair]
+
+        def send_away(number: int) -> int:
+            reply = service.client.patch(
+                f"{API}/users/{ids[1 - number]}", json={"active": False}, headers=pair[number].headers
+            )
+            return reply.status_code
+
+        statuses = together(send_away, 2)
+        assert statuses.count(200) == 1, statuses
+        assert [user["role"] for user in pair[statuses.index(200)].get("/users")["users"] if not user["deactivated_at"]]
+
+
+# Whose token a caller may make and revoke.
+@pytest.mark.parametrize(
+    ("caller", "owner", "made", "revoked"),
+    [
+        ("annotator", "annotator", 201, 204),
+        ("viewer", "viewer", 201, 204),
+        ("learner", "annotator", 403, 404),
+        ("viewer", "admin", 403, 404),
+        ("admin", "viewer", 201, 204),
+    ],
+)
+def test_a_token_is_made_and_revoked_by_its_owner_or_an_administrator(
+    lite: Service, caller: str, owner: str, made: int, revoked: int
+) -> None:
+    who, whose = getattr(lite, caller), getattr(lite, owner)
+    user = id_of(lite, whose.name)
+    who.post("/tokens", {"user": user, "label": "x"}, made)
+    token = lite.admin.post("/tokens", {"user": user, "label": "theirs"}, 201)
+    who.call("DELETE", f"/tokens/{token['id']}", expect=revoked)
+    reply = lite.client.get(f"{API}/me", headers={"Authorization": f"Bearer {token['token']}"})
+    assert reply.status_code == (401 if revoked == 204 else 200)
+
+
+def test_tokens_are_listed_without_their_secrets(service: Service) -> None:
+    made = service.annotator.post("/tokens", {"label": "laptop"}, 201)
+    listed = service.annotator.get("/me/tokens")["tokens"]
+    assert [(token["label"], token["last_used_at"] is None) for token in listed] == [("test", False), ("laptop", True)]
+    mine = Caller(service.client, "abe", made["token"])
+    mine.get("/me")
+    assert service.admin.get(f"/users/{id_of(service, 'abe')}/tokens")["tokens"][1]["last_used_at"] is not None
+    assert made["token"].removeprefix("wp_") not in str(listed)
+    service.annotator.call("DELETE", f"/tokens/{made['id']}", expect=204)
+    assert len(service.annotator.get("/me/tokens")["tokens"]) == 1

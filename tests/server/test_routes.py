@@ -34,8 +34,22 @@ MATRIX: dict[str, set[str]] = {
     "listUsers": {"admin"},
     "createUser": {"admin"},
     "createLoginLink": {"admin"},
-    "createToken": {"admin"},
-    "revokeToken": {"admin"},
+    "getUser": {"admin"},
+    "patchUser": {"admin"},
+    "listTokens": {"admin"},
+    "getNumbers": {"admin"},
+    "listNumbers": {"admin"},
+    "addGold": {"admin", "learner"},
+    "listGold": {"admin", "learner"},
+    "retireGold": {"admin", "learner"},
+    "createToken": ANYONE,  # their own; test_people says whose
+    "revokeToken": ANYONE,
+    "myNumbers": ANYONE,
+    "myTokens": ANYONE,
+    "mySessions": ANYONE,
+    "logoutEverywhere": ANYONE,
+    "getPractice": ANYONE,
+    "practice": ANYONE,
     "listRuns": ANYONE,
     "getRun": ANYONE,
     "getCurves": ANYONE,
@@ -69,7 +83,7 @@ def operations() -> list[tuple[str, str, str]]:
 
 
 def called(service: Service, method: str, path: str, headers: dict[str, str]) -> int:
-    for name in ("run", "query", "assignment", "user", "token"):
+    for name in ("run", "query", "assignment", "user", "token", "item"):
         path = path.replace(f"{{{name}}}", "1")
     body = {"json": {}} if method in {"POST", "PATCH", "PUT"} else {}
     return service.client.request(method, path, headers=headers, **body).status_code
@@ -141,7 +155,19 @@ def test_answers_and_questions_are_tagged_unions() -> None:
 
 def test_what_the_server_sends_has_no_optional_fields() -> None:
     schemas = document()["components"]["schemas"]
-    for name in ("Run", "Query", "Assignment", "Receipt", "Costs", "Curves", "AskLabelLo", "Prices", "Me"):
+    for name in (
+        "Run",
+        "Query",
+        "Assignment",
+        "Receipt",
+        "Costs",
+        "Curves",
+        "AskLabelLo",
+        "Prices",
+        "Me",
+        "Numbers",
+        "Gold",
+    ):
         assert set(schemas[name]["required"]) == set(schemas[name]["properties"]), name
 
 

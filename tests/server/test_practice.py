@@ -1,0 +1,76 @@
+"""Practice: known answers, marked label by label, and nothing stored."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from server.practice import SHIPPED, BadPractice, PracticeSet
+from tests.server.kit import Json, Service, in_process
+
+EXERCISES = json.loads(SHIPPED.read_text())["exercises"]
+
+
+def best(exercise: Json, choice: int) -> Json:
+    """A right answer to an exercise, of those with several the first or the last."""
+    known, ask = exercise["known"], exercise["ask"]
+    if "verdict" in known:
+        return {"kind": known["kind"], "verdict": known["verdict"]}
+    field = "subgoals" if "subgoals" in known else "actions"
+    labels = [right[choice] for right in known[field]]
+    if known["kind"] != "label_lo":
+        return {"kind": known["kind"], field: labels}
+    n_actions = len(ask["segments"][0]["actions"])
+    terminations = [state == known["end"] for state in range(n_actions + 1)]
+    return {"kind": "label_lo", "actions": labels + [None] * (n_actions - len(labels)), "terminations": terminations}
+
+
+@pytest.mark.parametrize("number", range(len(EXERCISES)))
+@pytest.mark.parametrize("choice", [0, -1])
+def test_every_best_answer_is_right_and_every_label_has_its_reason(lite: Service, number: int, choice: int) -> None:
+    answer = best(EXERCISES[number], choice)
+    feedback = lite.annotator.post(f"/practice/{number}", {"answer": answer})
+    assert feedback["is_right"]
+    assert len(feedback["reasons"]) == len(feedback["marks"])
+    assert all(mark["is_right"] and mark["given"] in mark["right"] for mark in feedback["marks"])
+
+
+def test_all_kinds_but_demonstrations_are_practiced_and_nothing_gives_the_answer_away(lite: Service) -> None:
+    found = lite.viewer.get("/practice")
+    kinds = [one["ask"]["kind"] for one in found["queries"]]
+    assert sorted(set(kinds)) == ["inspect_full", "inspect_lo", "label_full", "label_hi", "label_lo"]
+    assert all(set(one) == {"id", "ask"} for one in found["queries"])
+    verdicts = [one["known"]["verdict"] for one in EXERCISES if "verdict" in one["known"]]
+    assert sorted(verdicts) == ["fail", "fail", "pass", "pass"]
+
+
+def test_what_was_wrong_is_said_where_it_was(lite: Service) -> None:
+    number = next(n for n, one in enumerate(EXERCISES) if one["known"]["kind"] == "label_lo")
+    answer = best(EXERCISES[number], 0)
+    end = answer["terminations"].index(True)
+    answer["terminations"] = [False] * len(answer["terminations"])
+    answer["actions"] = [action or "up" for action in answer["actions"]]
+    feedback = lite.annotator.post(f"/practice/{number}", {"answer": answer})
+    wrong = [mark for mark in feedback["marks"] if not mark["is_right"]]
+    assert [(mark["place"], mark["right"]) for mark in wrong] == [(end, ["(done)"])]
+    assert not feedback["is_right"]
+    assert lite.annotator.get("/me/numbers")["total"]["answers"] == 0
+
+
+def test_answers_that_do_not_fit_are_refused(lite: Service) -> None:
+    lite.annotator.post("/practice/0", {"answer": {"kind": "label_hi", "subgoals": []}}, 422)
+    lite.annotator.post("/practice/999", {"answer": {"kind": "inspect_full", "verdict": "pass"}}, 404)
+
+
+def test_a_server_can_have_practice_of_its_own(sqlite_url: str, tmp_path: Path) -> None:
+    file = tmp_path / "practice.json"
+    own = json.loads(SHIPPED.read_text())
+    own["exercises"] = own["exercises"][:1]
+    file.write_text(json.dumps(own))
+    with in_process(sqlite_url, practice=file) as service:
+        assert len(service.annotator.get("/practice")["queries"]) == 1
+    own["exercises"][0]["known"]["kind"] = "inspect_lo"
+    file.write_text(json.dumps(own))
+    for path in (file, tmp_path / "missing.json"):
+        with pytest.raises(BadPractice, match="holds no practice queries"):
+            PracticeSet(path)
