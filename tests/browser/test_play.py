@@ -214,10 +214,10 @@ def test_what_does_not_succeed_is_sent_only_after_a_question(
     stage(learner.served, query)
     page = open_page(f"/work?run={run}", scheme=scheme, size=SMALL)
     is_here(page)
-    way(page, WAY[:1])
+    way(page, WAY[:4])
     assert violations(page) == [], "under way"
     press(page, "n")
-    walk(page, "lluuuu")  # into the lava, and keys beyond it
+    walk(page, "uuuuu")  # into the lava, and keys beyond it
     expect(page.get_by_text("The episode ended and the task is not accomplished.")).to_be_visible()
     assert violations(page) == [], "burnt"
     press(page, "Enter")
@@ -229,4 +229,4 @@ def test_what_does_not_succeed_is_sent_only_after_a_question(
     assert learner.query(query)["state"] == "leased"
     press(page, "Enter")
     press(page, "Tab", "Enter")
-    assert learner.answer_of(query)["segments"] == [SEGMENTS[0], {"subgoal": "north", "actions": ["left", "left"]}]
+    assert learner.answer_of(query)["segments"] == [*SEGMENTS[:4], {"subgoal": "north", "actions": ["up"] * 3}]
