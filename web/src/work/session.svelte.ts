@@ -155,12 +155,12 @@ export class WorkSession {
     this.#stopBeating = beat(
       assignment.lease_seconds,
       () => this.#desk.renew(held),
-      () => this.#lose(),
+      () => this.lose(),
     );
   }
 
   /** The lease is gone: say so and go on. */
-  #lose(): void {
+  lose(): void {
     if (this.phase !== 'task') return;
     this.#forget();
     this.#warn(
