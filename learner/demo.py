@@ -51,7 +51,8 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
         typer.echo(f"Open this link, once: {login_url(served.db, served.url, 'you', 'admin', LINK_SECONDS)}")
         typer.echo("Press Ctrl-C to stop.")
         start("oracle-bot", "annotator", "oracle", "--defer", str(DEFER_SECONDS))
-        start("demonstrator", "annotator", "oracle", "--kinds", "hier_demo")  # people need not play the whole warm start
+        # Nobody need play the whole warm start before there is something to judge.
+        start("demonstrator", "annotator", "oracle", "--kinds", "hier_demo")
         train = ("train", "hg-dagger", "--expert", "queue", "--name", "demo", "--preset", PRESET)
         values = ("--instances", instances, "--episodes", str(episodes), "--warm-start", str(WARM_START))
         checkpoints = ("--checkpoints", str(database.with_name(f"{database.name}.checkpoints")))

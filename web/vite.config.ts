@@ -11,7 +11,7 @@ export default defineConfig({
     cssCodeSplit: true,
   },
   server: {
-    proxy: { '/api': 'http://127.0.0.1:8000' },
+    proxy: { '/api': { target: 'http://127.0.0.1:8000', ws: true } },
   },
   test: { include: ['src/**/*.test.ts'] }, // what needs a document says so in its first line
 });

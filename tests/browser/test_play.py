@@ -10,10 +10,13 @@ from playwright.sync_api import Locator, Page, expect
 from sqlalchemy import update
 
 from learner.client import Client
+from learner.domains.corridor import Corridor, CorridorDomain
 from learner.domains.maze.domain import MazeDomain
 from learner.domains.maze.maze import Maze
+from learner.queries import HierDemo
+from learner.simulator import Simulator
 from learner.stage import offer
-from learner.translation import Translator
+from learner.translation import Translator, vocabulary
 from server import people, serving
 from server.settings import Settings
 from server.tables import assignments
@@ -31,6 +34,9 @@ SEGMENTS = [
     )
 ]
 
+MAZE = Translator(MazeDomain(), Maze.from_json(maze()))
+CORRIDOR = Translator(CorridorDomain(), Corridor(3, 6))
+
 Stage = Callable[..., Callable[[], None]]
 
 
@@ -44,12 +50,12 @@ def stage() -> Iterator[Stage]:
     """Offers the maze on the play socket of a query; what is offered is withdrawn when the test ends."""
     with ExitStack() as stack:
 
-        def offered(served: serving.Served, query: int) -> Callable[[], None]:
+        def offered(served: serving.Served, query: int, translator: Translator = MAZE) -> Callable[[], None]:
             user = served.db.write_now(lambda tx: people.ensure_user(tx, "learner", "learner"))
             token = served.db.write_now(lambda tx: people.create_token(tx, user.id, "stage")).token
             client = Client(served.url, token)
             stack.callback(client.close)
-            withdraw = offer(lambda: client.play(query), Translator(MazeDomain(), Maze.from_json(maze())))
+            withdraw = offer(lambda: client.play(query), translator)
             stack.callback(withdraw)
             return withdraw
 
@@ -214,10 +220,10 @@ def test_what_does_not_succeed_is_sent_only_after_a_question(
     stage(learner.served, query)
     page = open_page(f"/work?run={run}", scheme=scheme, size=SMALL)
     is_here(page)
-    way(page, WAY[:1])
+    way(page, WAY[:4])
     assert violations(page) == [], "under way"
     press(page, "n")
-    walk(page, "lluuuu")  # into the lava, and keys beyond it
+    walk(page, "uuuuu")  # into the lava, and keys beyond it
     expect(page.get_by_text("The episode ended and the task is not accomplished.")).to_be_visible()
     assert violations(page) == [], "burnt"
     press(page, "Enter")
@@ -229,4 +235,24 @@ def test_what_does_not_succeed_is_sent_only_after_a_question(
     assert learner.query(query)["state"] == "leased"
     press(page, "Enter")
     press(page, "Tab", "Enter")
-    assert learner.answer_of(query)["segments"] == [SEGMENTS[0], {"subgoal": "north", "actions": ["left", "left"]}]
+    assert learner.answer_of(query)["segments"] == [*SEGMENTS[:4], {"subgoal": "north", "actions": ["up"] * 3}]
+
+
+@pytest.mark.parametrize("flat", [False, True])
+def test_a_domain_without_a_renderer_is_played_with_letters(
+    open_page: Open, learner: Learner, stage: Stage, flat: bool
+) -> None:
+    run = learner.create_run("corridor", vocabulary=vocabulary(CorridorDomain()).model_dump())
+    demo = HierDemo(Simulator(CORRIDOR.domain).reset(CORRIDOR.instance), flat)
+    [query] = learner.ask(run, CORRIDOR.ask(demo, 0, 0).model_dump())
+    stage(learner.served, query, CORRIDOR)
+    page = open_page(f"/work?run={run}")
+    page.locator("[data-stage=here]").wait_for()
+    # Actions are west and east, W and E; the subgoals of the same names are left their digits.
+    press(page, *(["w", "e", "2", "1"] if flat else ["2", "e", "Enter", "t", "e", "e"]))
+    if flat:
+        expect(steps(page)).to_have_text("4")
+        press(page, "Backspace", "2", "e")
+    send(page)
+    actions = [segment["actions"] for segment in learner.answer_of(query)["segments"]]
+    assert actions == ([["west", "east", "east", "east", "east"]] if flat else [["east"], ["east", "east"]])

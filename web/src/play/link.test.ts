@@ -49,7 +49,7 @@ beforeEach(() => {
     stage: (present) => heard.push(present),
     states: (news) => heard.push(news.number),
     lost: () => heard.push('lost'),
-    refused: (words) => heard.push(words),
+    refused: (words, status) => heard.push(words, status),
   });
 });
 afterEach(() => {
@@ -97,7 +97,7 @@ describe('the play socket', () => {
   it.each([4401, 4403, 4404, 4409, 4422])('is not opened again after a refusal: %i', async (code) => {
     last().close(code, 'The lease has expired.');
     await vi.advanceTimersByTimeAsync(60_000);
-    expect(heard).toEqual(['The lease has expired.']);
+    expect(heard).toEqual(['The lease has expired.', code - 4000]);
     expect(wires).toHaveLength(1);
   });
 

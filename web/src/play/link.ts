@@ -8,8 +8,8 @@ export interface LinkEvents {
   states(news: PlayStates): void;
   /** The connection is lost; another attempt follows by itself. */
   lost(): void;
-  /** The server will not have us here, and says why. */
-  refused(words: string): void;
+  /** The server will not have us here, and says why; 409: the query is not ours any more. */
+  refused(words: string, status: number): void;
 }
 
 type OpenSocket = () => WebSocket;
@@ -58,7 +58,8 @@ export class PlayLink {
 
   async #closed({ code, reason }: CloseEvent): Promise<void> {
     if (this.#over.signal.aborted) return;
-    if (code >= REFUSED && code < 4500 && !PASSING.has(code)) return this.#events.refused(reason);
+    if (code >= REFUSED && code < 4500 && !PASSING.has(code))
+      return this.#events.refused(reason, code - 4000);
     this.#events.lost();
     await pause(delay(++this.#attempts), this.#over.signal);
     if (!this.#over.signal.aborted) this.#connect();

@@ -255,13 +255,13 @@ export class WorkSession {
     this.#heartbeat = beat(
       assignment.lease_seconds,
       () => this.#desk.renew(held, this.#active()),
-      () => this.#lose(),
+      () => this.lose(),
     );
     void this.#lookAhead();
   }
 
   /** The lease is gone: say so and go on. */
-  #lose(): void {
+  lose(): void {
     if (this.phase !== 'task') return;
     this.#forget();
     this.#warn(

@@ -1,0 +1,110 @@
+"""How long a step of a demonstration takes, from the key to the learner's next state: `python bench/play.py`.
+
+A server, a learner and a Chromium, each a process of its own, over loopback. A script plays demonstrations of the maze
+with the keyboard and waits for each state before the next key. Prints a table; asserts nothing.
+"""
+
+import argparse
+import os
+import platform
+import statistics
+import tempfile
+from pathlib import Path
+
+from playwright.sync_api import Page, sync_playwright
+
+from learner.domains.maze.domain import MazeDomain
+from learner.experts.oracle import OracleExpert
+from server import wire
+from tests.acceptance.person import ARROWS
+from tests.acceptance.processes import ServerProcess, free_port, start_learner
+from tests.browser.conftest import FLAGS, WIDE
+from tests.browser.kit import find_chromium
+
+RUN = ("h-bc", "--instances", "corners", "--preset", "demo", "--episodes", "100")
+WATCH = """() => {
+    const times = { pressed: 0, sent: 0, back: [], drawn: [] };
+    window.times = times;
+    addEventListener('keydown', () => { times.pressed = performance.now(); }, true);
+    const Socket = window.WebSocket;
+    window.WebSocket = class extends Socket {
+        constructor(...given) {
+            super(...given);
+            this.addEventListener('message', (event) => {
+                if (JSON.parse(event.data).type !== 'states') return;
+                times.back.push(performance.now() - times.pressed);
+                requestAnimationFrame(() => {
+                    setTimeout(() => times.drawn.push(performance.now() - times.pressed));
+                });
+            });
+        }
+    };
+}"""
+
+
+def play(page: Page, answer: wire.HierDemoAnswer, subgoals: tuple[str, ...]) -> None:
+    """Play a demonstration, a state at a time."""
+    for segment in answer.segments:
+        page.keyboard.press(str(subgoals.index(segment.subgoal or "") + 1))
+        for action in segment.actions:
+            n = page.evaluate("times.drawn.length")
+            page.keyboard.press(ARROWS[action])
+            page.wait_for_function("n => times.drawn.length > n", arg=n)
+        if segment is not answer.segments[-1]:
+            page.keyboard.press("Enter")
+    page.get_by_text("The task is accomplished.").wait_for()
+    page.keyboard.press("Enter")
+
+
+def measure(server: ServerProcess, page: Page, steps: int) -> dict[str, list[float]]:
+    """Return the milliseconds of each step until the state was there, and until it was drawn."""
+    domain = MazeDomain()
+    expert, client = OracleExpert(domain), server.client("learner", "learner")
+    page.add_init_script(f"({WATCH})()")
+    page.goto(server.login_link("person"))
+    page.goto(f"{server.url}/work")
+    found: dict[str, list[float]] = {"back": [], "drawn": []}
+    last = ""
+    while len(found["drawn"]) < steps:
+        page.locator(f"#question[data-query]:not([data-query='{last}'])").wait_for(timeout=120_000)
+        page.locator("[data-stage=here]").wait_for()
+        last = str(page.locator("#question").get_attribute("data-query"))
+        answer = expert(client.query(int(last)).ask)
+        assert isinstance(answer, wire.HierDemoAnswer)
+        page.evaluate("times.back = [], times.drawn = []")
+        play(page, answer, domain.subgoals)
+        for name, values in page.evaluate("({ back: times.back, drawn: times.drawn })").items():
+            found[name] += values
+    return found
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--steps", type=int, default=300, help="how many steps to measure")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        server = ServerProcess(Path(folder), free_port())
+        server.start()
+        learner = start_learner(server, RUN)
+        browser = playwright.chromium.launch(
+            executable_path=find_chromium(os.environ.get("WAYPOST_CHROMIUM")), args=FLAGS
+        )
+        try:
+            found = measure(server, browser.new_page(viewport=WIDE), arguments.steps)
+        finally:
+            browser.close()
+            learner.kill()
+            learner.communicate()
+            server.stop()
+    load = ", ".join(f"{average:.1f}" for average in os.getloadavg())
+    print(f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores, load {load}")
+    print(f"{len(found['drawn'])} steps\n\n| from the key until | p50 ms | p95 ms | max ms |\n|---|---|---|---|")
+    for name, words in (("back", "the learner's state is in the page"), ("drawn", "it is drawn")):
+        values = found[name]
+        p95 = statistics.quantiles(values, n=20)[-1]
+        print(f"| {words} | {statistics.median(values):.1f} | {p95:.1f} | {max(values):.1f} |")
+
+
+if __name__ == "__main__":
+    main()
