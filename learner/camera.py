@@ -28,16 +28,21 @@ class Camera:
 
     def frames(self, segments: Sequence[Segment]) -> list[list[str]]:
         """Return the hash of a frame per state, for segments that follow each other from the start of the episode."""
-        if self._pictured is None:
-            return [[] for _ in segments]
-        actions = tuple(action for segment in segments for action in segment.actions)
-        if any(actions[:n] not in self._hashes for n in range(len(actions) + 1)):
-            self._take(actions)
+        hashes = self.along([action for segment in segments for action in segment.actions])
         ends, frames = 0, []
         for segment in segments:
             first, ends = ends, ends + len(segment.actions)
-            frames.append([self._hashes[actions[:n]] for n in range(first, ends + 1)])
+            frames.append(hashes[first : ends + 1])
         return frames
+
+    def along(self, actions: Sequence[Action]) -> list[str]:
+        """Return the hash of a frame per state, from the start of the episode on; none if there are no pictures."""
+        if self._pictured is None:
+            return []
+        ways = [tuple(actions[:n]) for n in range(len(actions) + 1)]
+        if any(way not in self._hashes for way in ways):
+            self._take(ways[-1])
+        return [self._hashes[way] for way in ways]
 
     def developed(self) -> dict[str, bytes]:
         """Return the files of all frames taken since the last call, by their hashes."""

@@ -6,13 +6,14 @@ connection, an environment or a process: who connects again sends again.
 
 import logging
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 
 from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketException
 from websockets.frames import CloseCode
 from websockets.sync.client import ClientConnection
 
+from learner.camera import Camera
 from learner.simulator import Simulator
 from learner.translation import Translator
 from server import wire
@@ -23,14 +24,16 @@ _PASSING = frozenset({408, 429})  # refusals that later attempts may not meet, b
 log = logging.getLogger("waypost")
 
 Connect = Callable[[], AbstractContextManager[ClientConnection]]
+Upload = Callable[[Mapping[str, bytes]], None]
 
 
 class Stage:
     """One instance's environment, carried to wherever a demonstration stands."""
 
-    def __init__(self, translator: Translator) -> None:
-        self._translator = translator
+    def __init__(self, translator: Translator, upload: Upload) -> None:
+        self._translator, self._upload = translator, upload
         self._simulator = Simulator(translator.domain)
+        self._camera = Camera(translator.domain, translator.instance)  # the translator's own is another thread's
         self._begin()
 
     def perform(self, moves: wire.PlayMoves) -> wire.PlayStates:
@@ -41,11 +44,14 @@ class Stage:
             self._begin()
         self._go_on(actions[len(self._actions) :])
         known = min(moves.known, len(self._views))
+        frames = self._camera.along(self._actions)[known:]
+        self._upload(self._camera.developed())
         return wire.PlayStates(
             type="states",
             number=moves.number,
             known=known,
             states=self._views[known:],
+            frames=frames,
             ended=self._simulator.ended,
             succeeded=self._simulator.succeeded,
         )
@@ -65,8 +71,8 @@ class Stage:
 class Offer:
     """Keeps a stage connected, on a thread, until it is withdrawn or turned away for good."""
 
-    def __init__(self, connect: Connect, translator: Translator) -> None:
-        self._connect, self._translator = connect, translator
+    def __init__(self, connect: Connect, translator: Translator, upload: Upload) -> None:
+        self._connect, self._stage = connect, Stage(translator, upload)
         self._over = threading.Event()
         self._socket: ClientConnection | None = None
         self._lock = threading.Lock()  # between connecting and withdrawing
@@ -80,12 +86,12 @@ class Offer:
                 self._socket.close()
 
     def _run(self) -> None:
-        stage, pause = Stage(self._translator), _FIRST_PAUSE
+        pause = _FIRST_PAUSE
         while not self._over.is_set():
             try:
                 with self._connect() as socket:
                     pause = _FIRST_PAUSE
-                    self._play(socket, stage)
+                    self._play(socket)
             except (OSError, WebSocketException) as trouble:
                 if _is_final(trouble):
                     log.warning("Nobody can play a demonstration: %s", trouble)
@@ -93,7 +99,7 @@ class Offer:
             self._over.wait(pause)
             pause = min(2 * pause, _LONGEST_PAUSE)
 
-    def _play(self, socket: ClientConnection, stage: Stage) -> None:
+    def _play(self, socket: ClientConnection) -> None:
         with self._lock:
             if self._over.is_set():
                 return
@@ -101,12 +107,12 @@ class Offer:
         socket.send(wire.PlayOffer(type="offer").model_dump_json())
         while True:
             moves = wire.PlayMoves.model_validate_json(socket.recv())
-            socket.send(stage.perform(moves).model_dump_json())
+            socket.send(self._stage.perform(moves).model_dump_json())
 
 
-def offer(connect: Connect, translator: Translator) -> Callable[[], None]:
-    """Offer an instance's environment on a play socket; returns how to withdraw it."""
-    return Offer(connect, translator).withdraw
+def offer(connect: Connect, translator: Translator, upload: Upload) -> Callable[[], None]:
+    """Offer an instance's environment on a play socket, its pictures uploaded; returns how to withdraw it."""
+    return Offer(connect, translator, upload).withdraw
 
 
 def _is_final(trouble: Exception) -> bool:

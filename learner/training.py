@@ -213,7 +213,8 @@ def _offering(connection: Connection) -> Offer:
     """Return what lets people play demonstrations, unless an expert in this process gives them."""
     if connection.annotator is not None:
         return lambda _query, _translator: lambda: None
-    return lambda query, translator: stage.offer(partial(connection.learner.play, query), translator)
+    client = connection.learner
+    return lambda query, translator: stage.offer(partial(client.play, query), translator, client.upload)
 
 
 def _summary(

@@ -666,6 +666,11 @@ class PlayStates(Message):
         max_length=10_001,
         description="The states after those, in the domain's JSON view, up to the episode's end.",
     )
+    frames: list[FrameHash] = Field(
+        default_factory=list,
+        max_length=10_001,
+        description="A picture of each of these, uploaded before; none where the page draws the states itself.",
+    )
     ended: bool = Field(description="Whether the episode ended in the last state; actions after it have no state.")
     succeeded: bool = Field(description="Whether the whole task is accomplished in the last state.")
 

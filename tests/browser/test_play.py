@@ -55,7 +55,7 @@ def stage() -> Iterator[Stage]:
             token = served.db.write_now(lambda tx: people.create_token(tx, user.id, "stage")).token
             client = Client(served.url, token)
             stack.callback(client.close)
-            withdraw = offer(lambda: client.play(query), translator)
+            withdraw = offer(lambda: client.play(query), translator, client.upload)
             stack.callback(withdraw)
             return withdraw
 

@@ -31,6 +31,8 @@ Start = Callable[[Settings], serving.Served]
 domain = CorridorDomain()
 translator = Translator(domain, Corridor(0, 6))
 EAST, WEST = "east", "west"
+kept: dict[str, bytes] = {}
+keep = kept.update
 
 
 def moves(*actions: str, known: int = 1, number: int = 1) -> wire.PlayMoves:
@@ -46,14 +48,14 @@ def performed(stage: Stage, *actions: str, known: int = 1) -> tuple[list[object]
 
 
 def test_what_is_not_known_yet_comes_back() -> None:
-    stage = Stage(translator)
+    stage = Stage(translator, keep)
     assert performed(stage, EAST, EAST) == ([1, 2], False, False)
     assert performed(stage, EAST, EAST, EAST, known=3) == ([3], False, False)
     assert performed(stage, EAST, EAST, EAST, known=0) == ([0, 1, 2, 3], False, False)
 
 
 def test_taking_back_and_starting_over_are_moves_like_any_others() -> None:
-    stage = Stage(translator)
+    stage = Stage(translator, keep)
     performed(stage, EAST, EAST, EAST)
     assert performed(stage, EAST, WEST) == ([1, 0], False, False)
     assert performed(stage) == ([], False, False)
@@ -61,23 +63,34 @@ def test_taking_back_and_starting_over_are_moves_like_any_others() -> None:
 
 
 def test_nothing_happens_after_the_end() -> None:
-    stage = Stage(translator)
+    stage = Stage(translator, keep)
     there = [EAST] * 6
     assert performed(stage, *there, WEST, WEST) == ([1, 2, 3, 4, 5, 6], True, True)
     assert performed(stage, *there[:-1], WEST, known=6) == ([4], False, False)
 
 
+def test_each_state_has_its_picture_uploaded_before_it_is_shown() -> None:
+    stage = Stage(translator, keep)
+    kept.clear()
+    first = stage.perform(moves(known=0))
+    later = stage.perform(moves(EAST, WEST, known=1))
+    assert (len(first.frames), len(later.frames)) == (1, 2)
+    assert later.frames[1] == first.frames[0] != later.frames[0]
+    assert set(kept) == {*first.frames, *later.frames}
+    assert stage.perform(moves(EAST, EAST, known=9)).frames == []
+
+
 def test_a_page_that_knows_more_than_there_is_is_told_so() -> None:
-    states = Stage(translator).perform(moves(EAST, known=9))
+    states = Stage(translator, keep).perform(moves(EAST, known=9))
     assert (states.known, states.states) == (2, [])
 
 
 @examples
 @given(st.lists(st.lists(st.sampled_from([EAST, WEST]), max_size=9), max_size=6))
 def test_wherever_it_was_before_it_performs_what_a_new_environment_would(plays: list[list[str]]) -> None:
-    stage = Stage(translator)
+    stage = Stage(translator, keep)
     for actions in plays:
-        assert stage.perform(moves(*actions)) == Stage(translator).perform(moves(*actions))
+        assert stage.perform(moves(*actions)) == Stage(translator, keep).perform(moves(*actions))
 
 
 # --- over a server
@@ -187,7 +200,7 @@ def test_a_server_that_was_started_again_finds_the_environment_as_it_was(connect
         query = asked(learner)
         held = annotator.lease(wire.Lease())
         assert held is not None
-        withdraw = offer(lambda: learner.play(query.id), translator)
+        withdraw = offer(lambda: learner.play(query.id), translator, learner.upload)
         with at_table(annotator, held) as socket:
             socket.send(moves(EAST).model_dump_json())
             assert json.loads(socket.recv(timeout=20))["states"] == [1]
@@ -208,7 +221,7 @@ def test_a_learner_that_is_turned_away_says_why_once(
     query = asked(connect(served, "learner", "learner"))
     other = connect(served, "other", "learner")
     with caplog.at_level(logging.WARNING, "waypost"):
-        offer(lambda: other.play(query.id), translator)
+        offer(lambda: other.play(query.id), translator, other.upload)
         wait_until(lambda: not stages())
     assert [record.message for record in caplog.records if "another learner's run" in record.message] != []
     assert len([record for record in caplog.records if record.name == "waypost"]) == 1

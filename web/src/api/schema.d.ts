@@ -3086,6 +3086,11 @@ export interface components {
              */
             states: components["schemas"]["JsonValue"][];
             /**
+             * Frames
+             * @description A picture of each of these, uploaded before; none where the page draws the states itself.
+             */
+            frames: string[];
+            /**
              * Ended
              * @description Whether the episode ended in the last state; actions after it have no state.
              */

@@ -25,6 +25,7 @@ const news = (known: number, states: string[], more: Partial<PlayStates> = {}): 
   number: 1,
   known,
   states,
+  frames: [],
   ended: false,
   succeeded: false,
   ...more,

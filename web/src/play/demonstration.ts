@@ -12,6 +12,7 @@ export type Move =
 export interface Demonstration {
   readonly moves: readonly Move[];
   readonly states: readonly Json[]; // s_1 and what the learner's environment has made of the actions so far
+  readonly pictures: readonly (string | null)[]; // of these states, by hash; null where there is none yet
   readonly ended: boolean; // the episode, in the last of these states
   readonly succeeded: boolean; // the whole task, in the last of these states
 }
@@ -26,7 +27,7 @@ export interface Part {
 type Ask = AskOf<'hier_demo'>;
 
 export function begin(ask: Ask, moves: readonly Move[] = []): Demonstration {
-  return { moves, states: [ask.state], ended: false, succeeded: false };
+  return { moves, states: [ask.state], pictures: [null], ended: false, succeeded: false };
 }
 
 /** The segments since the last start. */
@@ -98,9 +99,10 @@ export function takeBack(demonstration: Demonstration): Demonstration {
 /** Put in what the environment made of the moves. What was played on after the end did not happen. */
 export function learn(demonstration: Demonstration, news: PlayStates): Demonstration {
   const states = [...demonstration.states.slice(0, news.known), ...news.states];
+  const pictures = states.map((_, at) => news.frames[at - news.known] ?? demonstration.pictures[at] ?? null);
   const { ended, succeeded } = news;
   const moves = ended ? upTo(demonstration.moves, states.length - 1) : demonstration.moves;
-  return { moves, states, ended, succeeded };
+  return { moves, states, pictures, ended, succeeded };
 }
 
 /** What an answer with these segments costs, in units; the server's own reckoning is what counts. */
@@ -127,14 +129,15 @@ export function tapeOf(demonstration: Demonstration): Tape {
     next += actions.length;
     return { index, subgoal, first, last, actions: actions.slice(0, last - first), asked: true };
   });
-  return { frames: demonstration.states, pictures: demonstration.states.map(() => null), stretches, start: 0 };
+  return { frames: demonstration.states, pictures: demonstration.pictures, stretches, start: 0 };
 }
 
 /** Without the states of actions that are gone. */
 function fitted(demonstration: Demonstration): Demonstration {
   const most = countActions(partsOf(demonstration)) + 1;
   if (most >= demonstration.states.length) return demonstration;
-  return { ...demonstration, states: demonstration.states.slice(0, most), ended: false, succeeded: false };
+  const [states, pictures] = [demonstration.states.slice(0, most), demonstration.pictures.slice(0, most)];
+  return { ...demonstration, states, pictures, ended: false, succeeded: false };
 }
 
 /** The moves without those that came after so many actions since the last start. */

@@ -39,6 +39,7 @@ export class Play {
   readonly #events: PlayEvents;
   #number = 0;
   #underway: number | null = null; // the message whose states are to come
+  #heard = false; // whether the environment has said anything, of the start to begin with
   #outdated = false; // whether what it said was taken back since
 
   constructor(options: PlayOptions, events: PlayEvents) {
@@ -98,6 +99,7 @@ export class Play {
   states(news: PlayStates): void {
     if (news.number !== this.#underway) return;
     this.#underway = null;
+    this.#heard = true;
     if (!this.#outdated) this.#keep(demos.learn(this.demonstration, news));
     this.#catchUp();
   }
@@ -149,14 +151,15 @@ export class Play {
 
   /** Have the environment carry out what it has not yet; one message at a time, always the newest. */
   #catchUp(): void {
-    if (this.stage !== 'here' || this.#underway !== null || !demos.isBehind(this.demonstration)) return;
+    if (this.stage !== 'here' || this.#underway !== null) return;
+    if (this.#heard && !demos.isBehind(this.demonstration)) return;
     this.#underway = ++this.#number;
     this.#outdated = false;
     this.#events.tell({
       type: 'moves',
       number: this.#number,
       segments: demos.segmentsOf(this.demonstration),
-      known: this.demonstration.states.length,
+      known: this.#heard ? this.demonstration.states.length : 0,
     });
   }
 

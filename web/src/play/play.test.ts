@@ -64,6 +64,7 @@ class Table {
       number,
       known,
       states: states.slice(known),
+      frames: states.slice(known).map((state) => `picture of ${state}`),
       ended: succeeded,
       succeeded,
     });
@@ -103,6 +104,12 @@ describe('playing', () => {
         ],
       },
     ]);
+  });
+
+  it('has a picture of every state, the first one too, where the learner sends them', () => {
+    const table = new Table().here();
+    table.walk('choose:0', 'act:1', 'act:1', 'clear');
+    expect(table.play.scene.tape.pictures).toEqual(['picture of 0', 'picture of 1']);
   });
 
   it('asks before a demonstration is sent that does not succeed', () => {
