@@ -178,6 +178,25 @@ def test_a_gold_query_given_back_comes_again_and_a_skipped_one_does_not(service:
     assert numbers(service.annotator)[others[0]["query"]["ask"]["kind"]]["gold"] == 1
 
 
+def test_an_episode_is_gone_on_with_after_a_gold_query(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, *(query(episode=n) for n in range(12)))
+    service.learner.ask(run, *(query(episode=n, ordinal=1) for n in range(11, -1, -1)))
+    bring(service, run, "label_hi")
+    own, after_gold = list[int](), False
+    for _ in range(20):
+        assignment = service.annotator.lease(run=run)
+        service.annotator.answer(assignment)
+        if is_gold(service, run, assignment):
+            after_gold = True
+            continue
+        own.append(assignment["query"]["ask"]["episode"])
+        if after_gold and len(own) % 2 == 0:
+            assert own[-1] == own[-2], "the follow-up of the episode that the gold query came into"
+        after_gold = False
+    assert own == sorted(own)
+
+
 def test_gold_queries_end_with_their_run(service: Service) -> None:
     run = service.learner.create_run()
     service.learner.ask(run, *(query(ordinal=n) for n in range(20)))

@@ -36,6 +36,7 @@ export type Role = Schemas['User']['role'];
 export type User = Schemas['User'];
 export type Numbers = Schemas['Numbers'];
 export type Token = Schemas['Token'];
+export type Session = Schemas['Session'];
 export type Gold = Schemas['Gold'];
 export type Practice = Schemas['Practice'];
 export type Feedback = Schemas['Feedback'];
