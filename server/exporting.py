@@ -9,7 +9,6 @@ import csv
 import io
 import json
 from collections.abc import AsyncIterator, Callable, Iterable, Mapping, Sequence
-from functools import partial
 
 from pydantic import JsonValue
 
@@ -81,7 +80,7 @@ async def stream(context: Context, run: str, table: wire.ExportTable, form: wire
     if form == "csv":
         yield csv_line(columns)
     cursor = -1
-    while records := await context.db.read(partial(look, run=run, after=cursor)):
+    while records := await context.db.read(lambda tx, after=cursor: look(tx, run, after)):
         if form == "csv":
             yield "".join(csv_line(record.get(name) for name in columns) for _, record in records)
         else:

@@ -58,15 +58,21 @@ def test_queries_of_a_run_with_a_higher_priority_come_first(service: Service) ->
     service.learner.ask(urgent, query(ordinal=0))
     assert service.learner.patch(urgent, priority=5)["priority"] == 5
     service.learner.ask(urgent, query(ordinal=1))
+    leased = [service.annotator.lease()["query"] for _ in range(3)]
+    assert [one["run"] for one in leased] == [urgent, urgent, usual]
+
+
+def test_a_follow_up_does_not_overtake_a_run_that_was_preferred_meanwhile(service: Service) -> None:
+    begun, preferred = (service.learner.create_run(name=name) for name in ("begun", "preferred"))
+    service.learner.ask(begun, query(ordinal=0), query(ordinal=1))
+    service.learner.ask(preferred, query(ordinal=0), query(ordinal=1))
     first = service.annotator.lease()
-    assert first["query"]["run"] == urgent
-    # A follow-up of the same episode does not overtake a run that was preferred meanwhile.
-    service.learner.patch(usual, priority=6)
+    assert first["query"]["run"] == begun
+    service.learner.patch(preferred, priority=1)
     second = service.annotator.answer(first, next={})["next"]
-    assert second["query"]["run"] == usual
-    service.learner.patch(usual, priority=-1)
-    third = service.annotator.answer(second, next={})["next"]
-    assert third["query"]["run"] == urgent
+    assert second["query"]["run"] == preferred
+    service.learner.patch(preferred, priority=-1)
+    assert service.annotator.answer(second, next={})["next"]["query"]["run"] == begun
 
 
 def test_a_priority_is_bounded_and_for_those_who_may(service: Service) -> None:

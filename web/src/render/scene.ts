@@ -16,3 +16,6 @@ export interface Label {
   readonly frame: number;
   readonly action: string | null; // null: the segment should have ended here
 }
+
+/** The state an action leads to. */
+export type Step = (state: Json, action: string) => Json;

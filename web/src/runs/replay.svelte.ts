@@ -1,9 +1,9 @@
-import type { Answer, Ask, Query, Run } from '../api/types';
+import type { Answer, Query, Run, Segment } from '../api/types';
 import type { Command } from '../keys/registry';
 import { MOVES } from '../player/commands';
 import * as players from '../player/player';
 import { askedFrames, buildTape, lastFrame, stops, stretchAt, type Tape } from '../player/tape';
-import type { Label, Scene } from '../render/scene';
+import type { Label, Scene, Step } from '../render/scene';
 
 /** A query's trajectory in the player, with its answer marked: only to be watched. */
 export class Replay {
@@ -16,10 +16,11 @@ export class Replay {
   readonly #stops: readonly number[];
   readonly #labels: readonly Label[];
 
-  constructor(query: Query, run: Run) {
+  /** `step`: what actions lead to, where the page knows it. */
+  constructor(query: Query, run: Run, step: Step | null) {
     this.#query = query;
     this.#run = run;
-    this.tape = tapeOf(query.ask);
+    this.tape = tapeOf(query, step);
     this.#stops = stops(this.tape);
     this.#labels = labelsOf(query.answer, this.tape);
     const begin = players.player(this.tape.start, lastFrame(this.tape));
@@ -56,10 +57,18 @@ export class Replay {
   }
 }
 
-/** A demonstration has no trajectory of the learner's: only where it starts. */
-export function tapeOf(ask: Ask): Tape {
+/** The learner's trajectory; of a demonstration the expert's, or only its start where its states are not known. */
+export function tapeOf({ ask, answer }: Pick<Query, 'ask' | 'answer'>, step: Step | null): Tape {
   if (ask.kind !== 'hier_demo') return buildTape(ask.context, ask.segments);
-  return buildTape(ask.context, [{ subgoal: null, states: [ask.state], actions: [], frames: [] }]);
+  const start: Segment = { subgoal: null, states: [ask.state], actions: [], frames: [] };
+  if (answer?.kind !== 'hier_demo' || step === null) return buildTape(ask.context, [start]);
+  let state = ask.state;
+  const segments = answer.segments.map(({ subgoal, actions }): Segment => {
+    const states = [state];
+    for (const action of actions) states.push((state = step(state, action)));
+    return { subgoal, states, actions, frames: [] };
+  });
+  return buildTape(ask.context, segments);
 }
 
 /** What the expert said about each state, as marks on the picture. */

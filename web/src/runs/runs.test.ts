@@ -1,10 +1,11 @@
 import { describe, expect, it, vi } from 'vitest';
-import type { Curves, Run } from '../api/types';
+import type { Curves, Query, Run } from '../api/types';
+import { stepMaze } from '../maze/steps';
 import { buildTape } from '../player/tape';
 import { ago, count, percent, seconds } from '../ui/format';
 import { acrossOf, bandOf, grouped, joined, stackOf, successOf } from './curves';
 import { throttled } from './live';
-import { labelsOf } from './replay.svelte';
+import { labelsOf, tapeOf } from './replay.svelte';
 import { wordsOfEnding } from './words';
 
 function curvesWith(more: Partial<Curves>): Curves {
@@ -154,6 +155,23 @@ describe('one query', () => {
       { frame: 1, action: 'down' },
       { frame: 2, action: null },
     ]);
+  });
+
+  it('shows a demonstration on a maze, whose steps the page knows, and elsewhere its start', () => {
+    const ask = { kind: 'hier_demo', context: [], state: [5, 2] } as unknown as Query['ask'];
+    const segments = [
+      { subgoal: 'north', actions: ['up', 'up'] },
+      { subgoal: 'east', actions: ['right'] },
+    ];
+    const query = { ask, answer: { kind: 'hier_demo', segments } } as const;
+    expect(tapeOf(query, stepMaze).frames).toEqual([
+      [5, 2],
+      [4, 2],
+      [3, 2],
+      [3, 3],
+    ]);
+    expect(tapeOf(query, null).frames).toEqual([[5, 2]]);
+    expect(tapeOf({ ask, answer: null }, stepMaze).frames).toEqual([[5, 2]]);
   });
 
   it('says how each time it was handed out ended', () => {

@@ -17,8 +17,8 @@ export function units(value: number): string {
 }
 
 /** 1 answer, 2 answers */
-export function count(value: number, noun: string): string {
-  return `${number(value)} ${noun}${value === 1 ? '' : 's'}`;
+export function count(value: number, noun: string, nouns = `${noun}s`): string {
+  return `${number(value)} ${value === 1 ? noun : nouns}`;
 }
 
 /** 3.1 s, 4 min, 2 h 5 min */
