@@ -8,6 +8,7 @@ import logging
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
+from http import HTTPStatus
 
 from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketException
 from websockets.frames import CloseCode
@@ -93,8 +94,10 @@ class Offer:
                     pause = _FIRST_PAUSE
                     self._play(socket)
             except (OSError, WebSocketException) as trouble:
-                if _is_final(trouble):
-                    log.warning("Nobody can play a demonstration: %s", trouble)
+                status = _refusal(trouble)
+                if status is not None:
+                    if status != HTTPStatus.CONFLICT:  # answered meanwhile, or offered by another process
+                        log.warning("Nobody can play a demonstration: %s", trouble)
                     return
             self._over.wait(pause)
             pause = min(2 * pause, _LONGEST_PAUSE)
@@ -115,14 +118,13 @@ def offer(connect: Connect, translator: Translator, upload: Upload) -> Callable[
     return Offer(connect, translator, upload).withdraw
 
 
-def _is_final(trouble: Exception) -> bool:
-    """Return whether connecting again would meet the same refusal: one of 400 and above, or 4000 + such a status."""
+def _refusal(trouble: Exception) -> int | None:
+    """Return the status of a refusal that connecting again would meet again: a handshake's, or a close code - 4000."""
     if isinstance(trouble, InvalidStatus):
         status = trouble.response.status_code
     elif isinstance(trouble, ConnectionClosed) and trouble.rcvd is not None:
-        if trouble.rcvd.code == CloseCode.MESSAGE_TOO_BIG:
-            return True
-        status = trouble.rcvd.code - 4_000
+        too_big = trouble.rcvd.code == CloseCode.MESSAGE_TOO_BIG
+        status = HTTPStatus.REQUEST_ENTITY_TOO_LARGE if too_big else trouble.rcvd.code - 4_000
     else:
-        return False
-    return 400 <= status < 500 and status not in _PASSING
+        return None
+    return status if 400 <= status < 500 and status not in _PASSING else None
