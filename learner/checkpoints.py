@@ -125,10 +125,15 @@ def _training_state(learner: Learner) -> Tensors:
 
 
 def _load_optimizer(optimizer: torch.optim.Optimizer, tensors: Tensors) -> None:
+    """Moments are laid out as their parameters are: fused Adam goes through both in the order of memory."""
+    parameters = [parameter for group in optimizer.param_groups for parameter in group["params"]]
     state: dict[int, Tensors] = {}
     for path, tensor in tensors.items():
         index, name = path.split(".")
-        state.setdefault(int(index), {})[name] = tensor
+        is_moment = tensor.shape == parameters[int(index)].shape
+        state.setdefault(int(index), {})[name] = (
+            torch.empty_like(parameters[int(index)]).copy_(tensor) if is_moment else tensor
+        )
     optimizer.load_state_dict({**optimizer.state_dict(), "state": state})
 
 

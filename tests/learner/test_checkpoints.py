@@ -14,7 +14,9 @@ from learner import checkpoints
 from learner.checkpoints import Header, weights_hash
 from learner.config import Progress, TrainConfig
 from learner.datasets import UNLABELED, Labels, Row
+from learner.domains.base import Domain
 from learner.domains.corridor import CorridorDomain
+from learner.domains.maze.domain import MazeDomain
 from learner.learner import Learner
 from learner.networks import NetworkSpec
 from learner.types import META
@@ -23,23 +25,28 @@ from tests.learner.kit import TINY
 HEADER = Header("a-run", TrainConfig("hg-dagger", domain="corridor", in_flight=2, warm_start=5), Progress(7, 9))
 
 
-def learner(seed: int = 0) -> Learner:
-    return Learner(CorridorDomain(), TINY, seed, threads=1)
+CORRIDOR, MAZE = CorridorDomain(), MazeDomain()  # vectors, pictures
 
 
-def labels(episode: int) -> Labels:
+def learner(seed: int = 0, domain: Domain = CORRIDOR) -> Learner:
+    return Learner(domain, TINY, seed, threads=1)
+
+
+def labels(episode: int, domain: Domain = CORRIDOR) -> Labels:
     rng = np.random.default_rng(episode)
     taught = Labels()
     for key in (META, 0, 2):
         terminations = [UNLABELED if key == META else int(rng.integers(2)) for _ in range(5)]
-        taught.rows[key] = [Row(rng.random(26).astype(np.float32), int(rng.integers(2)), t) for t in terminations]
+        taught.rows[key] = [
+            Row(rng.random(domain.observation_shape).astype(np.float32), int(rng.integers(2)), t) for t in terminations
+        ]
     return taught
 
 
-def trained(episodes: int, seed: int = 0) -> Learner:
-    one = learner(seed)
+def trained(episodes: int, seed: int = 0, domain: Domain = CORRIDOR) -> Learner:
+    one = learner(seed, domain)
     for episode in range(episodes):
-        one.learn(labels(episode))
+        one.learn(labels(episode, domain))
     return one
 
 
@@ -48,14 +55,15 @@ def path(tmp_path: Path) -> Path:
     return tmp_path / "new folder" / "a-run.safetensors"
 
 
-def test_training_goes_on_from_a_checkpoint_as_if_never_interrupted(path: Path) -> None:
-    checkpoints.write(path, trained(4), HEADER, weights_only=False)
-    resumed = learner(seed=99)  # all that is restored comes from the file, not from the seed
+@pytest.mark.parametrize("domain", [CORRIDOR, MAZE])
+def test_training_goes_on_from_a_checkpoint_as_if_never_interrupted(path: Path, domain: Domain) -> None:
+    checkpoints.write(path, trained(4, domain=domain), HEADER, weights_only=False)
+    resumed = learner(seed=99, domain=domain)  # all that is restored comes from the file, not from the seed
     checkpoints.load(path, resumed)
-    uninterrupted = trained(4)
+    uninterrupted = trained(4, domain=domain)
     for episode in range(4, 8):
-        resumed.learn(labels(episode))
-        uninterrupted.learn(labels(episode))
+        resumed.learn(labels(episode, domain))
+        uninterrupted.learn(labels(episode, domain))
     assert weights_hash(resumed) == weights_hash(uninterrupted)
     for key, data in uninterrupted.data.items():
         assert torch.equal(resumed.data[key].observations, data.observations)
