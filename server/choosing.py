@@ -80,7 +80,7 @@ _LOCK_ONE = select(queries.c.id).where(queries.c.id == bindparam("query"), IS_OP
 
 def take(tx: Tx, taker: Taker) -> int | None:
     """Lock and return the next query: a follow-up if nothing has a higher priority, else the first."""
-    n_others = presence.others(tx, taker.user, taker.presence_seconds)
+    n_others = presence.others(tx, taker.user, taker.run, taker.presence_seconds)
     offer = _offer(tx, taker, n_others > 0)
     known = taker.known(tx.now)
     if taker.ahead and not _is_enough(tx, offer, known, n_others):

@@ -41,7 +41,11 @@ AT_WORK = or_(
     ),
 )
 _AT_WORK = select(presence).where(AT_WORK)
-_OTHERS = select(func.count()).where(AT_WORK, presence.c.user_id != bindparam("user"))
+_OTHERS = select(func.count()).where(
+    AT_WORK,
+    presence.c.user_id != bindparam("user"),
+    or_(presence.c.run_id.is_(None), presence.c.run_id == func.coalesce(bindparam("run"), presence.c.run_id)),
+)
 
 
 def who_would_take(tx: Tx, seconds: float) -> ColumnElement[bool]:
@@ -50,9 +54,9 @@ def who_would_take(tx: Tx, seconds: float) -> ColumnElement[bool]:
     return or_(false(), *(_takes(row) for row in at_work))
 
 
-def others(tx: Tx, user: int, seconds: float) -> int:
-    """Return how many other annotators are at work."""
-    known = {"since": tx.now - seconds, "now": tx.now, "user": user}
+def others(tx: Tx, user: int, run: str | None, seconds: float) -> int:
+    """Return how many other annotators are at work who take queries of that run, or of any run."""
+    known = {"since": tx.now - seconds, "now": tx.now, "user": user, "run": run}
     return int(tx.conn.execute(_OTHERS, known).scalar_one())
 
 

@@ -47,7 +47,7 @@ export class WorkSession {
   #lookupAhead = new AbortController();
   #heartbeat = NO_HEARTBEAT;
   #ahead: readonly Ahead[] = [];
-  #leasingAhead = false;
+  #expected = 0; // requests under way that may bring a query to be kept ahead
   #sending: Promise<unknown> = Promise.resolve();
   #sent: readonly Held[] = []; // what can be undone, oldest first
   #stopped = false;
@@ -142,15 +142,15 @@ export class WorkSession {
   }
 
   async #send(letter: Letter): Promise<void> {
-    const shownNext = this.#ahead.length > 0;
-    const next = wish(this.#run, shownNext ? 0 : NEXT_SECONDS, shownNext);
-    const receipt = await this.#mailer.send(letter, next);
+    const isNextThere = this.#ahead.length > 0;
+    const next = wish(this.#run, isNextThere ? 0 : NEXT_SECONDS, isNextThere);
+    const receipt = await this.#expecting(this.#mailer.send(letter, next));
     if (receipt !== null) this.#sent = [...this.#sent, letter].slice(-UNDO_DEPTH);
     if (receipt?.next) this.#receive(receipt.next);
     else if (this.phase === 'sending') {
       this.#forget();
       this.#goOn();
-    }
+    } else if (receipt !== null) void this.#lookAhead();
   }
 
   /** Go on to what is held, or look for something. */
@@ -175,11 +175,15 @@ export class WorkSession {
     return true;
   }
 
-  /** Hold an assignment until its turn comes; what belongs to the episode on the screen goes first. */
+  /** Hold an assignment until its turn: the episode on the screen first, then as the server hands out. */
   #keepAhead(assignment: Assignment): void {
-    const isFollowUp = followsUp(assignment, this.assignment);
     this.#prepare(assignment);
-    this.#hold(isFollowUp ? [assignment, ...this.#waiting()] : [...this.#waiting(), assignment]);
+    const isOther = (one: Assignment): number => Number(!followsUp(one, this.assignment));
+    this.#hold(
+      [...this.#waiting(), assignment].toSorted(
+        (a, b) => isOther(a) - isOther(b) || b.query.priority - a.query.priority || a.query.id - b.query.id,
+      ),
+    );
   }
 
   #waiting(): Assignment[] {
@@ -208,18 +212,24 @@ export class WorkSession {
     this.#hold([assignment, ...this.#waiting()]);
   }
 
-  /** Lease the next query while this one is looked at. */
+  /** Lease the next query while this one is looked at, unless one is there or on its way. */
   async #lookAhead(): Promise<void> {
-    if (this.#ahead.length > 0 || this.#leasingAhead) return;
-    this.#leasingAhead = true;
+    if (this.#ahead.length > 0 || this.#expected > 0 || this.phase !== 'task') return;
     const { signal } = (this.#lookupAhead = new AbortController());
     try {
-      const found = await this.#desk.lease(wish(this.#run, POLL_SECONDS, true), signal);
+      const found = await this.#expecting(this.#desk.lease(wish(this.#run, POLL_SECONDS, true), signal));
       if (found !== null) this.#receive(found);
     } catch {
       // The next query comes with the receipt.
+    }
+  }
+
+  async #expecting<T>(reply: Promise<T>): Promise<T> {
+    this.#expected += 1;
+    try {
+      return await reply;
     } finally {
-      this.#leasingAhead = false;
+      this.#expected -= 1;
     }
   }
 

@@ -18,7 +18,7 @@ const LATE = new Refused(409, { type: '/problems/lease-expired', detail: 'Too la
 const PASS = { kind: 'inspect_full', verdict: 'pass' } as const;
 
 function assignment(id: number, episode = id): Assignment {
-  const query = { id, run: 'r', ask: { kind: 'inspect_full', episode } };
+  const query = { id, run: 'r', priority: 0, ask: { kind: 'inspect_full', episode } };
   return { id, token: `t${id}`, lease_seconds: 60, query } as unknown as Assignment;
 }
 
@@ -96,14 +96,29 @@ describe('a session', () => {
   });
 
   it('goes on with the episode on the screen before others that were leased earlier', async () => {
-    answer.mockResolvedValueOnce(receipt(assignment(3, 1))).mockResolvedValue(receipt(null));
-    await started([assignment(1, 1)], [assignment(2, 1), assignment(4, 9)]);
+    desk.retract.mockResolvedValue(assignment(1, 1));
+    answer.mockResolvedValueOnce(receipt(assignment(3, 5))).mockResolvedValueOnce(receipt(assignment(4, 1)));
+    await started([assignment(1, 1)], [assignment(2, 1)]);
     session.submit(PASS);
-    await settled();
+    await settled(); // 2 on the screen, 3 of another episode ahead
+    await session.undo(); // 1 on the screen, 2 and 3 ahead
     session.submit(PASS);
-    expect(shown()).toBe(3);
+    await settled(); // 2 on the screen, 3 and 4 ahead
+    answer.mockReturnValue(new Promise(() => undefined));
     session.submit(PASS);
     expect(shown()).toBe(4);
+    session.submit(PASS);
+    expect(shown()).toBe(3);
+  });
+
+  it('asks ahead once at a time, and again when an answer brought nothing', async () => {
+    const lease = vi.spyOn(desk, 'lease');
+    answer.mockResolvedValue(receipt(null));
+    await started([assignment(1)], [assignment(2)]);
+    session.submit(PASS);
+    expect(lease).toHaveBeenCalledTimes(2); // the first query, and the one ahead: the answer asks for another
+    await settled();
+    expect(lease).toHaveBeenCalledTimes(3);
   });
 
   it('holds two ahead at most, and gives the third back', async () => {
