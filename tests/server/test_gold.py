@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
+from sqlalchemy import select
 
 from server.probing import Place
 from server.tables import ledger
@@ -251,6 +252,9 @@ def test_a_run_with_gold_queries_costs_and_learns_what_it_does_without(database_
             for run in (plain, golden):
                 met[f"{step} {carry_out(step, run)}"] += 1
         assert accounts(service, plain) == accounts(service, golden)
+        charged = service.db.read_now(lambda tx: tx.conn.execute(select(ledger.c.run_id).distinct()).scalars().all())
+        listed = [run["id"] for run in service.viewer.get("/runs")["runs"]]
+        assert set(charged) <= set(listed), "no gold query is in any ledger"
 
     def carry_out(step: str, run: str) -> str:
         """Do a step to the run's own next query, and to whatever gold comes before it."""

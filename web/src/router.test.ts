@@ -18,6 +18,12 @@ it.each([
   ['/login', '', { view: 'login' }],
   ['/work/7', '', { view: 'nowhere' }],
   ['/runs/1/2', '', { view: 'nowhere' }],
+  ['/runs/a%2Fb/gold', '', { view: 'gold', run: 'a/b' }],
+  ['/people', '', { view: 'people' }],
+  ['/people/12', '', { view: 'person', user: 12 }],
+  ['/people/0x1', '', { view: 'nowhere' }],
+  ['/me', '', { view: 'me' }],
+  ['/practice', '', { view: 'practice' }],
   ['/else', '', { view: 'nowhere' }],
 ])('%s%s leads somewhere', (path, search, route) => {
   expect(parseRoute(path, search)).toEqual(route);
