@@ -23,7 +23,7 @@ MEDIA_TYPES: Mapping[wire.ExportFormat, str] = {"csv": "text/csv; charset=utf-8"
 
 Record = dict[str, JsonValue]
 Records = list[tuple[int, Record]]  # each with where to go on after it
-Look = Callable[[Tx, str, int], Records]
+Look = Callable[[Tx, str, int], Records]  # a run's rows past a cursor
 
 LEDGER_COLUMNS = tuple(wire.LedgerEntry.model_fields)
 QUERY_COLUMNS = (
@@ -80,12 +80,16 @@ async def stream(context: Context, run: str, table: wire.ExportTable, form: wire
     if form == "csv":
         yield csv_line(columns)
     cursor = -1
-    while records := await context.db.read(lambda tx, after=cursor: look(tx, run, after)):
+    while records := await context.db.read(_following(look, run, cursor)):
         if form == "csv":
             yield "".join(csv_line(record.get(name) for name in columns) for _, record in records)
         else:
             yield "".join(f"{json.dumps(record)}\n" for _, record in records)
         cursor = records[-1][0]
+
+
+def _following(look: Look, run: str, after: int) -> Callable[[Tx], Records]:
+    return lambda tx: look(tx, run, after)
 
 
 def _curves(tx: Tx, run: str, after: int) -> Records:

@@ -68,6 +68,7 @@ MATRIX: dict[str, set[str]] = {
     "metrics": ANYONE,
     "logout": ANYONE,
 }
+ENDLESS = {"streamChanges"}  # in process, its reply would have to end first; test_events.py reads it as a viewer
 
 
 def document() -> dict[str, Any]:
@@ -126,7 +127,7 @@ def test_each_role_may_call_what_is_its_own_and_nothing_else(lite: Service) -> N
         "viewer": lite.viewer,
     }
     for method, path, name in operations():
-        if (method, path) in OPEN:
+        if (method, path) in OPEN or name in ENDLESS:
             continue
         for role, caller in callers.items():
             refused = called(lite, method, path, caller.headers) == 403
