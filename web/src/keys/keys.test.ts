@@ -104,7 +104,9 @@ describe('the registry', () => {
     const flat = bindingsFor('flat_demo', many);
     expect(collisions(flat)).toEqual([]);
     expect(keysOf(flat, 'act:1')).toEqual(['o', '2']);
-    expect(flat.filter(({ command, keys }) => command.startsWith('act:') && keys.length === 0)).toHaveLength(5);
+    expect(flat.filter(({ command, keys }) => command.startsWith('act:') && keys.length === 0)).toHaveLength(
+      5,
+    );
   });
 
   it('leaves every command of every mode reachable', () => {
