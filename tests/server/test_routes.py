@@ -6,6 +6,7 @@ import sys
 from typing import Any
 
 import pytest
+from starlette.routing import WebSocketRoute
 
 from server import wire
 from server.app import create_app
@@ -97,6 +98,8 @@ def all_routes(routes: Any, prefix: str = "") -> set[tuple[str, str]]:
         nested = getattr(route, "original_router", None) or getattr(route, "app", None)
         if getattr(route, "methods", None):
             found |= {(method, prefix + route.path) for method in route.methods - {"HEAD"}}
+        elif isinstance(route, WebSocketRoute):
+            found.add(("WS", prefix + route.path))
         elif nested is not None and hasattr(nested, "routes"):
             inner = getattr(route, "include_context", None)
             found |= all_routes(nested.routes, prefix + (getattr(inner, "prefix", "") or ""))
@@ -108,7 +111,18 @@ def all_routes(routes: Any, prefix: str = "") -> set[tuple[str, str]]:
 def test_the_app_serves_nothing_that_is_not_described() -> None:
     app = create_app(Settings(database="sqlite:///never-opened.db"))
     described = {(method, path) for method, path, _ in operations()}
-    assert all_routes(app.routes) - described == {("GET", "/api/v1/openapi.json"), ("GET", "/{path:path}")}
+    assert all_routes(app.routes) - described == {
+        ("GET", "/api/v1/openapi.json"),
+        ("GET", "/{path:path}"),
+        ("WS", "/api/v1/queries/{query}/play"),  # OpenAPI has no sockets; docs/rest-client.md describes it
+    }
+
+
+def test_the_messages_of_the_play_socket_are_described() -> None:
+    schemas = document()["components"]["schemas"]
+    names = {name for name, of in vars(wire).items() if name.startswith("Play") and isinstance(of, type)}
+    assert len(names) == 5
+    assert names <= set(schemas)
 
 
 def test_every_route_needs_a_login_but_health_and_login_itself(lite: Service) -> None:
