@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from server import people
 from server.serving import Served
 from tests.browser.hostile import NUMBER, payloads
 from tests.browser.kit import VOCABULARY, Learner, ask, login_link, wait_for_heading
@@ -34,6 +35,15 @@ def nothing_ran(page: Page) -> None:
     page.wait_for_timeout(200)
     assert page.evaluate("window.ran") is None
     assert page.evaluate("document.querySelectorAll('iframe, object, [onerror], [onload]').length") == 0
+
+
+def look(page: Page, *addresses: str) -> None:
+    """Look at views, each drawn to its end."""
+    for address in addresses:
+        page.goto(address)
+        page.get_by_role("heading", level=1).first.wait_for()
+        page.wait_for_timeout(300)
+        nothing_ran(page)
 
 
 def test_there_are_200_and_a_careless_page_would_run_them(browser: Browser) -> None:
@@ -71,17 +81,24 @@ def test_names_and_questions_and_states_are_only_ever_text(page: Page, learner: 
         page.keyboard.press("Enter")
         expect(page.get_by_text("Skipped")).to_be_visible()
         nothing_ran(page)
-    page.goto(f"/runs/{run}")
-    page.get_by_role("heading", level=1).wait_for()
-    nothing_ran(page)
+    queries = [one["id"] for one in page.request.get(f"/api/v1/runs/{run}/query-rows").json()["queries"]]
+    views = ["", "/queries", "/ledger", "/gold", *(f"/queries/{query}" for query in queries)]
+    look(page, *(f"/runs/{run}{view}" for view in views), f"/runs/compare?run={run}")
 
 
-def test_names_of_runs_and_people_are_only_ever_text(page: Page, learner: Learner, served: Served) -> None:
+def test_names_of_runs_are_only_ever_text(page: Page, learner: Learner) -> None:
+    runs = [learner.create_run(text) for text in PAYLOADS]
+    look(page, "/runs", *(f"/runs?page={number}" for number in range(2, 6)))
+    look(page, "/runs/compare?" + "&".join(f"run={run}" for run in runs[:24]))
+
+
+def test_names_of_people_and_tokens_are_only_ever_text(page: Page, learner: Learner, served: Served) -> None:
     for text in PAYLOADS:
-        learner.create_run(text)
-    page.goto("/runs")
-    page.get_by_role("row").nth(1).wait_for()
-    nothing_ran(page)
+        served.db.write_now(lambda tx, name=text: people.ensure_user(tx, name, "annotator"))
+    hostile = served.db.write_now(lambda tx: people.ensure_user(tx, PAYLOADS[20], "annotator"))
+    for text in PAYLOADS[:20]:
+        served.db.write_now(lambda tx, label=text: people.create_token(tx, hostile.id, label))
+    look(page, "/people", f"/people/{hostile.id}")
     page.goto(login_link(served, PAYLOADS[20], "annotator"))
     page.wait_for_url("**/work")
     run = learner.create_run("quiet", vocabulary=VOCABULARY)
@@ -93,3 +110,4 @@ def test_names_of_runs_and_people_are_only_ever_text(page: Page, learner: Learne
     page.goto(f"/runs/{run}")
     page.get_by_text(PAYLOADS[20], exact=True).first.wait_for()
     nothing_ran(page)
+    look(page, "/me", f"/runs/{run}/queries", f"/runs/{run}/ledger")
