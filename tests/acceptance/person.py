@@ -50,7 +50,7 @@ class Person:
         for segment in before:
             self._press([*self._moves(segment), "Enter"])
         self._press(self._moves(last))
-        self._page.get_by_text("The task is accomplished.").wait_for()
+        self._page.get_by_text("The task is accomplished. Send the demonstration.").wait_for()
         self._press(["Enter"])
 
     def _moves(self, segment: wire.DemoSegment) -> list[str]:

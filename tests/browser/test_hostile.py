@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page
 
 from server import people
 from server.serving import Served
@@ -66,24 +66,23 @@ def test_names_and_questions_and_states_are_only_ever_text(page: Page, learner: 
     question = "".join(PAYLOADS)[:500]
     suggestion = {"kind": "label_hi", "subgoals": PAYLOADS}
     asked = {"question": question, "instance": instance, "segments": segments}
-    learner.ask(run, ask("label_hi", **asked, suggestion=suggestion))
-    learner.ask(
-        run,
-        ask("label_full", ordinal=1, **asked),
-        ask("inspect_lo", 1, **asked | {"context": segments, "segments": segments[:1]}),
-    )
-    for _ in range(3):
-        page.goto(f"/work?run={run}")
+    page.goto(f"/work?run={run}")
+    for one in (
+        ask("label_hi", **asked, suggestion=suggestion),
+        ask("label_full", 1, **asked),
+        ask("inspect_lo", 2, **asked | {"context": segments, "segments": segments[:1]}),
+    ):
+        wait_for_heading(page, "Waiting for the learner")
+        learner.ask(run, one)
         wait_for_heading(page, question)
         nothing_ran(page)
         page.keyboard.press("Shift+S")
         page.get_by_role("dialog").get_by_role("textbox").fill(question)
         page.keyboard.press("Enter")
-        expect(page.get_by_text("Skipped")).to_be_visible()
-        nothing_ran(page)
-    queries = [one["id"] for one in page.request.get(f"/api/v1/runs/{run}/query-rows").json()["queries"]]
+    queries = [one["id"] for one in page.request.get(f"/api/v1/runs/{run}/query-rows").json()["rows"]]
     views = ["", "/queries", "/ledger", "/gold", *(f"/queries/{query}" for query in queries)]
     look(page, *(f"/runs/{run}{view}" for view in views), f"/runs/compare?run={run}")
+    learner.call("PATCH", f"/runs/{run}", {"state": "finished"})  # nobody else is to get these
 
 
 def test_names_of_runs_are_only_ever_text(page: Page, learner: Learner) -> None:
@@ -101,6 +100,7 @@ def test_names_of_people_and_tokens_are_only_ever_text(page: Page, learner: Lear
     look(page, "/people", f"/people/{hostile.id}")
     page.goto(login_link(served, PAYLOADS[20], "annotator"))
     page.wait_for_url("**/work")
+    look(page, "/me")
     run = learner.create_run("quiet", vocabulary=VOCABULARY)
     learner.ask(run, ask("inspect_full"))
     page.goto(f"/work?run={run}")
@@ -110,4 +110,4 @@ def test_names_of_people_and_tokens_are_only_ever_text(page: Page, learner: Lear
     page.goto(f"/runs/{run}")
     page.get_by_text(PAYLOADS[20], exact=True).first.wait_for()
     nothing_ran(page)
-    look(page, "/me", f"/runs/{run}/queries", f"/runs/{run}/ledger")
+    look(page, f"/runs/{run}/queries", f"/runs/{run}/ledger")

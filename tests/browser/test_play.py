@@ -87,7 +87,7 @@ def way(page: Page, legs: list[tuple[str, str]]) -> None:
 
 def send(page: Page) -> None:
     """Send what succeeded."""
-    page.get_by_text("The task is accomplished.").wait_for()
+    page.get_by_text("The task is accomplished. Send the demonstration.").wait_for()
     press(page, "Enter")
 
 
