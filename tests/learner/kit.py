@@ -58,14 +58,15 @@ def store(path: Path) -> Iterator[tuple[Connection, RunOptions]]:
 # --- trajectories
 
 
-def state(view: Any = None) -> State:
+def state(view: Any = None, number: float = 0) -> State:
     """A state that no network will see."""
-    return State(np.zeros(2, np.float32), view)
+    return State(np.full(2, number, np.float32), view)
 
 
 def segment(subgoal: int | None, n_actions: int = 2, action: int = 0, terminated: bool = True) -> Segment:
-    """A segment of states that differ by identity alone."""
-    return Segment(subgoal, tuple(state() for _ in range(n_actions + 1)), (action,) * n_actions, terminated)
+    """A segment of states that differ."""
+    states = tuple(state(number=number) for number in range(n_actions + 1))
+    return Segment(subgoal, states, (action,) * n_actions, terminated)
 
 
 # --- mazes
