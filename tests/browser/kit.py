@@ -160,6 +160,12 @@ class Learner:
         """Train on an answer."""
         self.call("POST", f"/queries/{query}/use")
 
+    def finish_all(self) -> None:
+        """Finish every run there is, so that nothing is left to be answered."""
+        while runs := self.call("GET", "/runs?state=running")["runs"]:
+            for run in runs:
+                self.call("PATCH", f"/runs/{run['id']}", {"state": "finished"})
+
     def report(self, run: str, outcomes: list[bool]) -> None:
         """Report episodes."""
         rows = [

@@ -23,7 +23,10 @@ def shown_once(page: Page, name: str) -> str:
     return secret
 
 
-def test_an_administrator_lets_somebody_in_and_sends_them_away(open_page: Open, complaints: Complaints) -> None:
+def test_an_administrator_lets_somebody_in_and_sends_them_away(
+    open_page: Open, learner: Learner, complaints: Complaints
+) -> None:
+    learner.finish_all()
     complaints.expect("401")
     complaints.expect("403")
     admin = open_page("/people", role="admin")
@@ -72,6 +75,7 @@ def test_everybody_has_a_page_of_their_own(open_page: Open, complaints: Complain
 
 
 def test_somebody_new_practices_by_keyboard(open_page: Open, served: Served, learner: Learner) -> None:
+    learner.finish_all()
     run = learner.create_run("not touched")
     page = open_page("/practice")
     page.get_by_role("heading", name="Practice").wait_for()

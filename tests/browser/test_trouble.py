@@ -115,6 +115,7 @@ def test_leaving_gives_back_what_is_held_and_the_back_button_takes_it_up_again(
     page.get_by_role("heading", name="Runs").wait_for()
     other = open_page(f"/work?run={run}")
     wait_for_heading(other, QUESTION)
+    wait_until_leased(learner, *held)
     other.close()
     page.go_back()
     wait_for_heading(page, QUESTION)
