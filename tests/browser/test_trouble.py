@@ -17,8 +17,13 @@ QUESTION = ask("inspect_full")["question"]
 
 def wait_until_leased(learner: Learner, *queries: int) -> None:
     """Wait until the page has these queries."""
+    wait_until("leased", learner, *queries)
+
+
+def wait_until(state: str, learner: Learner, *queries: int) -> None:
+    """Wait until these queries are in a state."""
     deadline = time.monotonic() + 15
-    while any(learner.query(query)["state"] != "leased" for query in queries):
+    while any(learner.query(query)["state"] != state for query in queries):
         assert time.monotonic() < deadline
         time.sleep(0.05)
 
@@ -115,8 +120,8 @@ def test_leaving_gives_back_what_is_held_and_the_back_button_takes_it_up_again(
     page.get_by_role("heading", name="Runs").wait_for()
     other = open_page(f"/work?run={run}")
     wait_for_heading(other, QUESTION)
-    wait_until_leased(learner, *held)
     other.close()
+    wait_until("open", learner, *held)
     page.go_back()
     wait_for_heading(page, QUESTION)
     page.keyboard.press("p")
