@@ -152,7 +152,7 @@ def test_a_long_run_is_leafed_through_page_by_page(service: Service) -> None:
     run = service.learner.create_run()
     filled(service, run, 1_000, 5)
     report(service, run, *(result(n, n % 3 > 0) for n in range(1_000)))
-    for path in ("ledger", "ledger?kind=label_lo&before=2500", "query-rows", "query-rows?annotator=ann&before=2500"):
+    for path in ("ledger", "ledger?kind=label_lo&before=2500", "query-rows", "query-rows?kind=label_lo&before=2500"):
         (rows,) = [found for found in service.viewer.get(f"/runs/{run}/{path}").values() if isinstance(found, list)]
         assert len(rows) == 50, path
     tail = service.viewer.get(f"/runs/{run}/curves?after=997")
