@@ -273,9 +273,9 @@ def test_an_answer_after_a_sleep_past_the_lease_is_explained_and_its_labels_are_
         deadline = time.monotonic() + 15
         while learner.query(query)["state"] == "leased" and time.monotonic() < deadline:
             time.sleep(0.1)
-        page.unroute("**/renew")
-        page.keyboard.press("Shift+Enter")
+        page.keyboard.press("Shift+Enter")  # before a beat can find out
         expect(page.get_by_text("after the time on the query had run out")).to_be_visible()
+        page.unroute("**/renew")
         wait_for_heading(page, ask("label_hi")["question"])
         expect(page.get_by_text("5 of 5")).to_be_visible()
         page.keyboard.press("Enter")
