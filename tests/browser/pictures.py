@@ -1,0 +1,178 @@
+"""Every view of the page as a picture, light and dark, wide and narrow:
+`python -m tests.browser.pictures docs/images --store runs.db` shows the runs of a store, of which a copy is served.
+
+The questions are those of the tests. Without a store there is little to see of runs.
+"""
+
+import argparse
+import io
+import os
+import shutil
+import tempfile
+from collections.abc import Callable
+from contextlib import ExitStack, closing
+from dataclasses import dataclass
+from pathlib import Path
+
+from PIL import Image
+from playwright.sync_api import Page, sync_playwright
+
+from learner.client import Client
+from learner.stage import offer
+from server import people, serving
+from server.serving import Served
+from server.settings import Settings
+from tests.browser import test_play
+from tests.browser.conftest import FLAGS, WEB, WIDE
+from tests.browser.kit import Learner, ask, find_chromium, log_in, wait_for_heading
+
+SIZES = {
+    "wide": WIDE,
+    "narrow": {"width": 768, "height": 1024},
+    "landscape": {"width": 844, "height": 390},  # a phone on its side
+}
+USUAL = ("light", "wide")
+LOOKS = ["light-wide", "dark-wide", "light-narrow", "dark-narrow", "light-landscape"]
+KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
+
+
+def there_is_a_row(page: Page) -> None:
+    """A table has come."""
+    page.get_by_role("row").nth(1).wait_for()
+
+
+def there_is_a_chart(page: Page) -> None:
+    """A curve has been drawn."""
+    page.get_by_role("slider").first.wait_for()
+
+
+def there_is_a_heading(page: Page) -> None:
+    """The view says what it is."""
+    page.get_by_role("heading", level=1).wait_for()
+
+
+@dataclass
+class Gallery:
+    """Takes pictures of a server's page in one scheme and size."""
+
+    folder: Path
+    served: Served
+    learner: Learner
+    page: Page
+    suffix: str
+
+    def take(self, name: str) -> None:
+        """Keep what is on the screen."""
+        self.page.wait_for_timeout(300)  # what moves has come to rest
+        with Image.open(io.BytesIO(self.page.screenshot())) as picture:  # 256 colors are a third of the bytes
+            picture.convert("RGB").quantize(256).save(self.folder / f"{name}{self.suffix}.png", optimize=True)
+
+    def visit(self, name: str, path: str, ready: Callable[[Page], object]) -> None:
+        """Go somewhere, and keep what is there when it is ready."""
+        self.page.goto(path)
+        ready(self.page)
+        self.take(name)
+
+    def questions(self) -> None:
+        """The work view, each kind of question in turn, and its dialogs."""
+        run = self.learner.create_run("maze-lean", budget=2_000.0)
+        self.learner.ask(run, *[ask(kind, ordinal=ordinal) for ordinal, kind in enumerate(KINDS)])
+        self.page.goto(f"/work?run={run}")
+        for kind in KINDS:
+            wait_for_heading(self.page, ask(kind)["question"])
+            if kind.startswith("label"):
+                self.page.keyboard.press("Enter")
+                self.page.keyboard.press("2")
+            self.take(kind.replace("_", "-"))
+            if kind == "label_hi":
+                for key, name in (("?", "keys"), ("Shift+S", "skip")):
+                    self.page.keyboard.press(key)
+                    self.page.get_by_role("dialog").wait_for()
+                    self.take(name)
+                    self.page.keyboard.press("Escape")
+            self.page.keyboard.press("f" if "inspect" in kind else "Shift+Enter")
+        wait_for_heading(self.page, "Waiting for the learner")
+        self.take("waiting")
+        self.learner.call("PATCH", f"/runs/{run}", {"state": "finished"})
+
+    def demonstration(self) -> None:
+        """A demonstration under way."""
+        run = self.learner.create_run("maze-lean")
+        query = self.learner.ask(run, test_play.ask())[0]
+        user = self.served.db.write_now(lambda tx: people.ensure_user(tx, "learner", "learner"))
+        token = self.served.db.write_now(lambda tx: people.create_token(tx, user.id, "stage")).token
+        with closing(Client(self.served.url, token)) as client, ExitStack() as stack:
+            stack.callback(offer(lambda: client.play(query), test_play.MAZE, client.upload))
+            self.page.goto(f"/work?run={run}")
+            test_play.is_here(self.page)
+            test_play.way(self.page, test_play.WAY[:5])
+            self.take("hier-demo")
+        self.learner.call("PATCH", f"/runs/{run}", {"state": "finished"})
+
+    def runs(self, run: str, others: list[str]) -> None:
+        """What is seen of runs: the list, one of them and its parts, several overlaid."""
+        self.visit("runs", "/runs", there_is_a_row)
+        self.visit("run", f"/runs/{run}", there_is_a_chart)
+        self.visit("ledger", f"/runs/{run}/ledger", there_is_a_row)
+        if others:
+            self.visit("queries", f"/runs/{run}/queries?kind=label_hi", there_is_a_row)
+            self.page.get_by_role("link", name="Label_HI").first.click()
+            self.page.get_by_role("heading", name="In the ledger").wait_for()
+            self.take("query")
+            self.visit("overlay", f"/runs/compare?{'&'.join(f'run={one}' for one in others)}", there_is_a_chart)
+
+    def people(self, run: str) -> None:
+        """Accounts, an account, one's own, gold queries, practice, and the way in."""
+        self.visit("people", "/people", there_is_a_heading)
+        self.page.get_by_role("link", name="learner").first.click()
+        self.page.get_by_role("heading", level=1, name="learner").wait_for()
+        self.take("person")
+        self.visit("me", "/me", there_is_a_heading)
+        self.visit("gold", f"/runs/{run}/gold", there_is_a_heading)
+        self.visit("practice", "/practice", there_is_a_heading)
+        self.page.keyboard.press("Enter")
+        wait_for_heading(self.page, "Was the whole task accomplished?")
+        self.page.keyboard.press("f")
+        wait_for_heading(self.page, "Not right")
+        self.take("practice-feedback")
+        self.visit("login", "/login", there_is_a_heading)
+
+
+def take_all(folder: Path, store: Path | None, looks: list[list[str]]) -> None:
+    """Serve, and go through every view in every look: a scheme and a size."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as kept, ExitStack() as stack:
+        database = Path(kept) / "waypost.db"
+        if store is not None:
+            shutil.copy(store, database)
+        settings = Settings(database=f"sqlite:///{database}", page=WEB / "dist")
+        served = stack.enter_context(serving.background(settings))
+        learner = stack.enter_context(closing(Learner(served)))
+        playwright = stack.enter_context(sync_playwright())
+        browser = playwright.chromium.launch(
+            executable_path=find_chromium(os.environ.get("WAYPOST_CHROMIUM")), args=FLAGS
+        )
+        stack.callback(browser.close)
+        there = learner.call("GET", "/runs?limit=200")["runs"]
+        guided = [one["id"] for one in there if one["algorithm"] == "hg-dagger"]
+        run = guided[0] if guided else learner.create_run()
+        for scheme, size in looks:
+            context = browser.new_context(base_url=served.url, viewport=SIZES[size], color_scheme=scheme)
+            log_in(context, served, "ada", "admin")
+            suffix = "".join(f"-{part}" for part in (scheme, size) if part not in USUAL)
+            gallery = Gallery(folder, served, learner, context.new_page(), suffix)
+            gallery.questions()
+            if size != "landscape":
+                gallery.demonstration()
+                gallery.runs(run, [one["id"] for one in there])
+                gallery.people(run)
+            context.close()
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--store", type=Path, help="an SQLite store with runs to show")
+    parser.add_argument("--looks", nargs="+", default=LOOKS, help=f"of scheme-size, such as: {' '.join(LOOKS)}")
+    asked = parser.parse_args()
+    take_all(asked.folder, asked.store, [look.split("-") for look in asked.looks])
