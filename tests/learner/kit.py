@@ -58,14 +58,15 @@ def store(path: Path) -> Iterator[tuple[Connection, RunOptions]]:
 # --- trajectories
 
 
-def state(view: Any = None) -> State:
+def state(view: Any = None, number: float = 0) -> State:
     """A state that no network will see."""
-    return State(np.zeros(2, np.float32), view)
+    return State(np.full(2, number, np.float32), view)
 
 
 def segment(subgoal: int | None, n_actions: int = 2, action: int = 0, terminated: bool = True) -> Segment:
-    """A segment of states that differ by identity alone."""
-    return Segment(subgoal, tuple(state() for _ in range(n_actions + 1)), (action,) * n_actions, terminated)
+    """A segment of states that differ."""
+    states = tuple(state(number=number) for number in range(n_actions + 1))
+    return Segment(subgoal, states, (action,) * n_actions, terminated)
 
 
 # --- mazes
@@ -149,11 +150,14 @@ def corridor(**values: Any) -> TrainConfig:
 
 
 def history(client: Client, run: str) -> list[tuple[Any, ...]]:
-    """All that was asked, answered and charged in a run, by episode and ordinal."""
+    """All that was asked (its pictures aside), answered and charged in a run, by episode and ordinal."""
     found, cursor = [], 0
+    pictures: Any = {part: {"__all__": {"frames"}} for part in ("segments", "context")}
     while (page := client.answers(run, cursor)).queries:
         cursor = page.cursor
-        found += [(q.ask.episode, q.ask.ordinal, q.ask.model_dump(), q.answer, q.units) for q in page.queries]
+        found += [
+            (q.ask.episode, q.ask.ordinal, q.ask.model_dump(exclude=pictures), q.answer, q.units) for q in page.queries
+        ]
     return sorted(found, key=lambda row: row[:2])
 
 
