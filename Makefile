@@ -32,11 +32,12 @@ serve: $(VENV)/.base $(if $(filter yes,$(shell scripts/page-is-current)),,web/di
 
 web: web/dist/index.html
 
-# pytest comes last, so that its summary is the last thing said.
+# pytest comes last, so that its summary is the last thing said. Not with --dist worksteal: it runs tests of one name,
+# as those made of the API's description are, once.
 test: lint test-web $(VENV)/.dev web/dist/index.html
 	@SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/postgresql
 	@chromium="$$(SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/chromium)" && \
-	  export WAYPOST_CHROMIUM="$$chromium" && exec $(PYTHON) -m pytest $(PYTEST_ARGS)
+	  export WAYPOST_CHROMIUM="$$chromium" && exec $(PYTHON) -m pytest -n auto --maxprocesses 4 --dist worksteal $(PYTEST_ARGS)
 
 test-web: web/node_modules/.stamp
 	@cd web && ../$(WITH_NODE) npm test --silent

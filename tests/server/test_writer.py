@@ -192,7 +192,7 @@ def test_deadlocks_are_tried_again(cluster: Any) -> None:
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(tries) == 3
+    assert len(tries) >= 3
     rows = db.read_now(lambda tx: tx.conn.exec_driver_sql("SELECT n FROM pairs").scalars().all())
     assert rows == [2, 2]
     db.close()
