@@ -32,7 +32,7 @@ serve: $(VENV)/.base $(if $(filter yes,$(shell scripts/page-is-current)),,web/di
 
 web: web/dist/index.html
 
-# pytest comes last, so that its summary is the last thing said. Not with --dist worksteal: it runs tests of one name,
+# pytest comes last, so that its summary is the last thing said. Not with --dist loadscope: it runs tests of one name,
 # as those made of the API's description are, once.
 test: lint test-web $(VENV)/.dev web/dist/index.html
 	@SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/postgresql
