@@ -1,0 +1,106 @@
+"""Assignments: what an annotator holds, and how it is answered, kept or given back."""
+
+from pydantic import Field
+
+from server.wire.answers import Answer
+from server.wire.queries import Query
+from server.wire.runs import Run
+from server.wire.words import Kind, Message, Note
+
+__all__ = [
+    "AnswerPost",
+    "Assignment",
+    "AssignmentList",
+    "Lease",
+    "Receipt",
+    "Release",
+    "Renew",
+    "Renewal",
+    "TokenPost",
+]
+
+
+class Lease(Message):
+    """What an annotator is willing to take."""
+
+    wait: float = Field(default=0, ge=0, le=60, allow_inf_nan=False, description="Wait so long for a query, seconds.")
+    kinds: list[Kind] | None = Field(default=None, description="Only these kinds; null for all.")
+    run: str | None = Field(default=None, description="Only this run; null for all.")
+    defer: float = Field(
+        default=0,
+        ge=0,
+        le=3_600,
+        allow_inf_nan=False,
+        description="Leave a query this many seconds to other annotators who are at work and take its kind. A bot that "
+        "helps people sets it; nobody else need.",
+    )
+    ahead: bool = Field(
+        default=False,
+        description="To be answered after what the annotator holds already: only while enough queries are left for "
+        "everybody else at work.",
+    )
+
+
+class Assignment(Message):
+    """One query handed to one annotator under a lease. Only `token` and an unexpired lease can answer it."""
+
+    id: int
+    token: str
+    query: Query
+    run: Run
+    leased_at: float
+    expires_at: float
+    lease_seconds: float
+
+
+class AssignmentList(Message):
+    """The caller's live assignments, oldest first: what a reloaded page goes on with."""
+
+    assignments: list[Assignment]
+
+
+class AnswerPost(Message):
+    """An answer. Sending it again (same assignment, same content) returns the same receipt and costs nothing."""
+
+    token: str = Field(max_length=200)
+    answer: Answer
+    next: Lease | None = Field(default=None, description="Lease the next query in the same call; null for none.")
+
+
+class Receipt(Message):
+    """The answer is on disk and charged."""
+
+    query: int
+    answer: int
+    units: float
+    seconds: float
+    active_seconds: float
+    next: Assignment | None
+
+
+class TokenPost(Message):
+    """Shows that the caller holds the lease."""
+
+    token: str = Field(max_length=200)
+
+
+class Renew(TokenPost):
+    """A heartbeat."""
+
+    active: bool = Field(
+        default=False, description="The annotator did something since the last one: pressed, pointed, scrolled."
+    )
+
+
+class Release(Message):
+    """Give a query back, unanswered."""
+
+    token: str = Field(max_length=200)
+    reason: Note = Field(default="", description='Why; "" when only making room for others.')
+    skip: bool = Field(default=False, description="True: do not offer it to this annotator again.")
+
+
+class Renewal(Message):
+    """The lease after a heartbeat."""
+
+    expires_at: float
