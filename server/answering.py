@@ -183,9 +183,9 @@ def _receipt(stored: Row[Any], following: wire.Assignment | None) -> wire.Receip
     )
 
 
-def retract(tx: Tx, assignment: int, user: int, token: str, settings: Settings) -> wire.Assignment:
+def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Settings) -> wire.Assignment:
     """Take an answer back and lease its query to the same annotator again; what it cost is refunded."""
-    held = queue.find(tx, assignment, user, token)
+    held = queue.find(tx, assignment, user, body.token)
     run = runs.lock(tx, held.run)
     query = tx.conn.execute(_LOCK_QUERY, {"query": held.query}).one()
     given = tx.conn.execute(_GIVEN, {"assignment": assignment}).one_or_none()
@@ -208,7 +208,7 @@ def retract(tx: Tx, assignment: int, user: int, token: str, settings: Settings) 
     )
     events.add(tx, run.id, "retracted", {"query": query.id, "answer": given.id, "units": to_units(given.units)})
     tx.wake(queries.topic(query.id))
-    again = queue.grant(tx, query.id, user, settings.lease_seconds, deferring=False)
+    again = queue.grant(tx, query.id, user, queue.Terms(settings.lease_seconds, tab=body.tab))
     return queue.view(tx, again)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from sqlalchemy import bindparam, insert, select, update
 from sqlalchemy.sql.elements import ColumnElement
 
-from server import activity, choosing, errors, live, people, presence, probing, queries, runs, wire
+from server import activity, choosing, departures, errors, live, people, presence, probing, queries, runs, wire
 from server.choosing import Taker
 from server.database import Tx
 from server.settings import Settings
@@ -16,12 +16,21 @@ from server.tables import queries as query_table
 
 
 @dataclass(frozen=True)
+class Terms:
+    """How a query is leased: how long, to a deferring bot or not, with the reply to which answer, to which page."""
+
+    seconds: float
+    deferring: bool = False
+    after: int | None = None
+    tab: str | None = None
+
+
+@dataclass(frozen=True)
 class Wish:
     """What an annotator would take, and on which terms it is leased."""
 
     taker: Taker
-    lease_seconds: float
-    after: int | None = None
+    terms: Terms
 
     @classmethod
     def of(cls, lease: wire.Lease, user: int, settings: Settings, after: int | None = None) -> "Wish":
@@ -36,7 +45,7 @@ class Wish:
             settings.presence_seconds,
             settings.follow_up_seconds,
         )
-        return cls(taker, settings.lease_seconds, after)
+        return cls(taker, Terms(settings.lease_seconds, lease.defer > 0, after, lease.tab))
 
 
 @dataclass(frozen=True)
@@ -74,16 +83,18 @@ def lease(tx: Tx, wish: Wish) -> wire.Assignment | None:
     people.refuse_gone(tx, taker.user)
     if taker.run is not None:
         runs.find(tx, taker.run)
+    if wish.terms.tab is not None and departures.known(tx, taker.user, wish.terms.tab):
+        return None
     if taker.defer == 0:
         presence.note(tx, taker.user, taker.run, taker.kinds)
     query = choosing.take(tx, taker)
     if query is None:
         return None
     query = probing.instead(tx, taker, query)
-    return view(tx, grant(tx, query, taker.user, wish.lease_seconds, deferring=taker.defer > 0, after=wish.after))
+    return view(tx, grant(tx, query, taker.user, wish.terms))
 
 
-def grant(tx: Tx, query: int, user: int, seconds: float, *, deferring: bool, after: int | None = None) -> int:
+def grant(tx: Tx, query: int, user: int, terms: Terms) -> int:
     """Give a query to an annotator; the store allows one live assignment per query."""
     activity.begin(tx, user)
     tx.conn.execute(_LEASED, {"query": query})
@@ -92,10 +103,11 @@ def grant(tx: Tx, query: int, user: int, seconds: float, *, deferring: bool, aft
         "user_id": user,
         "token": secrets.token_urlsafe(16),
         "state": "live",
-        "deferring": deferring,
-        "after_id": after,
+        "deferring": terms.deferring,
+        "after_id": terms.after,
+        "tab": terms.tab,
         "leased_at": tx.now,
-        "expires_at": tx.now + seconds,
+        "expires_at": tx.now + terms.seconds,
     }
     return int(tx.conn.execute(_GRANT, lease).scalar_one())
 
@@ -188,6 +200,19 @@ def release(tx: Tx, assignment: int, user: int, body: wire.Release, settings: Se
     if body.skip:
         activity.take(tx, user, settings.idle_seconds)  # it is not the next query's
         tx.conn.execute(insert(skips).values(query_id=held.query, user_id=user))
+
+
+def leave(tx: Tx, user: int, body: wire.Leave) -> None:
+    """Give back what a page holds, but what it is still answering; nothing more is leased to it."""
+    departures.note(tx, user, body.tab)
+    theirs = (assignments.c.user_id == user, assignments.c.tab == body.tab, assignments.c.id.not_in(body.keep))
+    ids = tx.conn.execute(
+        select(query_table.c.id)
+        .join(assignments, assignments.c.query_id == query_table.c.id)
+        .where(*theirs, IS_LIVE)
+        .with_for_update(of=query_table)
+    ).scalars()
+    reopen(tx, ids.all(), "released", theirs)
 
 
 def held(tx: Tx, user: int) -> wire.AssignmentList:

@@ -157,6 +157,7 @@ assignments = Table(
     # The assignment whose answer's reply handed this one out.
     Column("after_id", RowId, ForeignKey("assignments.id"), index=True),
     Column("reason", Text),
+    Column("tab", Text),  # the page that asked for it, if it said so
     Column("leased_at", Float, nullable=False),
     Column("expires_at", Float, nullable=False),
     Column("ended_at", Float),
@@ -232,6 +233,15 @@ skips = Table(
     metadata,
     Column("query_id", RowId, ForeignKey("queries.id"), primary_key=True),
     Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
+)
+
+# Pages that have gone: what is still under way to them is leased to nobody.
+departures = Table(
+    "departures",
+    metadata,
+    Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
+    Column("tab", Text, primary_key=True),
+    Column("at", Float, nullable=False),
 )
 
 # Who has asked for work of late, so that a deferring bot can leave it to them. No run or kinds: all.

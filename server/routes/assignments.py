@@ -38,6 +38,12 @@ async def lease(body: wire.Lease, request: Request, context: Ctx, caller: Annota
     return found if found is not None else Response(status_code=204)
 
 
+@router.post("/leave", status_code=204, operation_id="leave")
+async def leave(body: wire.Leave, context: Ctx, caller: AnnotatorCalls) -> None:
+    """Say that a page is going: what it holds goes back, and what was under way to it is leased to nobody."""
+    await context.db.write(lambda tx: queue.leave(tx, caller.user, body))
+
+
 @router.get("", operation_id="myAssignments")
 async def my_assignments(context: Ctx, caller: AnnotatorCalls) -> wire.AssignmentList:
     """List the caller's live assignments, so that a reloaded page can go on with them."""
@@ -97,8 +103,8 @@ async def release(assignment: AssignmentId, body: wire.Release, context: Ctx, ca
     ),
 )
 async def retract(
-    assignment: AssignmentId, body: wire.TokenPost, context: Ctx, caller: AnnotatorCalls
+    assignment: AssignmentId, body: wire.Retract, context: Ctx, caller: AnnotatorCalls
 ) -> wire.Assignment:
     """Take an answer back that the learner has not used: it is refunded, and its query is leased again."""
     settings = context.settings
-    return await context.db.write(lambda tx: answering.retract(tx, assignment, caller.user, body.token, settings))
+    return await context.db.write(lambda tx: answering.retract(tx, assignment, caller.user, body, settings))

@@ -1,5 +1,7 @@
 """Assignments: what an annotator holds, and how it is answered, kept or given back."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from server.wire.answers import Answer
@@ -12,12 +14,17 @@ __all__ = [
     "Assignment",
     "AssignmentList",
     "Lease",
+    "Leave",
     "Receipt",
     "Release",
     "Renew",
     "Renewal",
+    "Retract",
     "TokenPost",
 ]
+
+
+Tab = Annotated[str, Field(pattern=r"^[\x21-\x7e]{1,64}$", description="A page's own name for itself, of its making.")]
 
 
 class Lease(Message):
@@ -39,6 +46,7 @@ class Lease(Message):
         description="To be answered after what the annotator holds already: only while enough queries are left for "
         "everybody else at work.",
     )
+    tab: Tab | None = Field(default=None, description="The page that asks, so that it can give back all it holds.")
 
 
 class Assignment(Message):
@@ -84,6 +92,12 @@ class TokenPost(Message):
     token: str = Field(max_length=200)
 
 
+class Retract(TokenPost):
+    """Take an answer back."""
+
+    tab: Tab | None = Field(default=None, description="The page that will hold its query again.")
+
+
 class Renew(TokenPost):
     """A heartbeat."""
 
@@ -98,6 +112,13 @@ class Release(Message):
     token: str = Field(max_length=200)
     reason: Note = Field(default="", description='Why; "" when only making room for others.')
     skip: bool = Field(default=False, description="True: do not offer it to this annotator again.")
+
+
+class Leave(Message):
+    """A page is going: give back all it holds, and lease nothing more to it."""
+
+    tab: Tab
+    keep: list[int] = Field(max_length=1_000, description="Assignments whose answers are still being sent.")
 
 
 class Renewal(Message):

@@ -103,6 +103,28 @@ def test_a_reload_goes_on_with_the_same_query(open_page: Open, learner: Learner)
     wait_for_heading(page, ask("label_hi")["question"])
 
 
+def test_what_is_leased_in_the_instant_of_a_reload_is_not_lost(
+    open_page: Open, learner: Learner, complaints: Complaints
+) -> None:
+    complaints.expect("net::ERR_FAILED")
+    run = learner.create_run("instant")
+    page = open_page("/login", intercepted=True)
+
+    def gone(route: Route) -> None:
+        """The server leases, and the page never hears of it."""
+        route.fetch()
+        route.abort()
+
+    page.route("**/assignments", gone, times=1)
+    [query] = learner.ask(run, ask("inspect_full"))
+    page.goto(f"/work?run={run}")
+    wait_until_leased(learner, query)
+    page.reload()
+    wait_for_heading(page, QUESTION)
+    page.keyboard.press("p")
+    assert learner.answer_of(query)["verdict"] == "pass"
+
+
 def test_leaving_gives_back_what_is_held_and_the_back_button_takes_it_up_again(
     open_page: Open, learner: Learner
 ) -> None:

@@ -103,8 +103,12 @@ class Caller:
         headers = more.pop("headers", {})
         return self.post(f"/assignments/{assignment['id']}/answer", body | more, expect, headers=headers)
 
-    def retract(self, assignment: Json, expect: int = 200) -> Any:
-        return self.post(f"/assignments/{assignment['id']}/retract", {"token": assignment["token"]}, expect)
+    def retract(self, assignment: Json, expect: int = 200, **more: Any) -> Any:
+        return self.post(f"/assignments/{assignment['id']}/retract", {"token": assignment["token"]} | more, expect)
+
+    def leave(self, tab: str, *keep: Json, expect: int = 204) -> Any:
+        """Say that a page goes, and which assignments it still answers."""
+        return self.post("/assignments/leave", {"tab": tab, "keep": [one["id"] for one in keep]}, expect)
 
     def release(self, assignment: Json, expect: int = 204, **more: Any) -> Any:
         return self.post(f"/assignments/{assignment['id']}/release", {"token": assignment["token"]} | more, expect)

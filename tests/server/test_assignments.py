@@ -246,3 +246,38 @@ def test_what_is_leased_ahead_leaves_enough_for_everybody_at_work(service: Servi
     service.learner.ask(run, query(episode=3))
     assert service.annotator.lease(ahead=True, expect=204) is None, "otto has none"
     otto.lease()
+
+
+def test_a_page_that_goes_gives_back_all_it_holds_but_what_it_still_answers(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, *(query(episode=episode) for episode in range(4)))
+    answering, shown, ahead = (service.annotator.lease(tab="one") for _ in range(3))
+    other = service.annotator.lease(tab="two")
+    service.annotator.leave("one", answering)
+    assert [one["id"] for one in service.annotator.get("/assignments")["assignments"]] == [answering["id"], other["id"]]
+    service.annotator.answer(answering)
+    service.annotator.answer(shown, expect=409)
+    service.annotator.answer(ahead, expect=409)
+    service.annotator.answer(other)
+
+
+def test_nothing_is_leased_to_a_page_that_has_gone_whatever_was_on_its_way(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, *(query(episode=episode) for episode in range(3)))
+    answered = service.annotator.lease(tab="one")
+    service.annotator.leave("one", answered)
+    assert service.annotator.lease(tab="one", expect=204) is None
+    assert service.annotator.answer(answered, next={"tab": "one"})["next"] is None
+    service.annotator.leave("one")  # said twice, it is the same
+    assert service.annotator.lease(tab="two")["query"]["ask"]["episode"] == 1
+    assert service.user("otto", "annotator").lease(tab="one")["query"]["ask"]["episode"] == 2, "another's page"
+
+
+def test_a_page_that_goes_gives_back_what_it_took_back(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, query())
+    held = service.annotator.lease(tab="one")
+    service.annotator.answer(held)
+    service.annotator.retract(held, tab="one")
+    service.annotator.leave("one")
+    service.annotator.lease(tab="two")

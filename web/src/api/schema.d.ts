@@ -237,6 +237,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/assignments/leave": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Leave
+         * @description Say that a page is going: what it holds goes back, and what was under way to it is leased to nobody.
+         */
+        post: operations["leave"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/assignments/{assignment}/answer": {
         parameters: {
             query?: never;
@@ -2045,6 +2065,27 @@ export interface components {
              * @default false
              */
             ahead: boolean;
+            /**
+             * Tab
+             * @description The page that asks, so that it can give back all it holds.
+             */
+            tab?: string | null;
+        };
+        /**
+         * Leave
+         * @description A page is going: give back all it holds, and lease nothing more to it.
+         */
+        Leave: {
+            /**
+             * Tab
+             * @description A page's own name for itself, of its making.
+             */
+            tab: string;
+            /**
+             * Keep
+             * @description Assignments whose answers are still being sent.
+             */
+            keep: number[];
         };
         /**
          * LedgerEntry
@@ -2663,6 +2704,19 @@ export interface components {
             expires_at: number;
         };
         /**
+         * Retract
+         * @description Take an answer back.
+         */
+        Retract: {
+            /** Token */
+            token: string;
+            /**
+             * Tab
+             * @description The page that will hold its query again.
+             */
+            tab?: string | null;
+        };
+        /**
          * Run
          * @description A run and where its money is: `spent + reserved <= budget`, always.
          */
@@ -2921,14 +2975,6 @@ export interface components {
         TokenList: {
             /** Tokens */
             tokens: components["schemas"]["Token"][];
-        };
-        /**
-         * TokenPost
-         * @description Shows that the caller holds the lease.
-         */
-        TokenPost: {
-            /** Token */
-            token: string;
         };
         /**
          * User
@@ -4299,6 +4345,82 @@ export interface operations {
             };
         };
     };
+    leave: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Leave"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     answer: {
         parameters: {
             query?: never;
@@ -4605,7 +4727,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["TokenPost"];
+                "application/json": components["schemas"]["Retract"];
             };
         };
         responses: {

@@ -6,7 +6,9 @@ export interface Desk {
   lease(wish: Lease, signal: AbortSignal): Promise<Assignment | null>;
   renew(held: Held, active: boolean): Promise<unknown>;
   release(held: Held, reason: string, skip: boolean): Promise<unknown>;
-  retract(held: Held): Promise<Assignment>;
+  /** The page is going: all that was or is being leased to it goes back, but what is kept to be answered. */
+  leave(tab: string, keep: number[]): Promise<unknown>;
+  retract(held: Held, tab: string): Promise<Assignment>;
   me(): Promise<Me>;
 }
 
@@ -26,8 +28,8 @@ export interface Letter extends Held {
 /** Stores an answer; with `next`, the receipt brings the next query. */
 export type SendAnswer = (letter: Letter, next: Lease | null) => Promise<Receipt>;
 
-export function wish(run: string | null, wait: number, ahead = false): Lease {
-  return { wait, kinds: [...KINDS], run, defer: 0, ahead };
+export function wish(run: string | null, tab: string, wait: number, ahead = false): Lease {
+  return { wait, kinds: [...KINDS], run, defer: 0, ahead, tab };
 }
 
 export function heldOf(assignment: Assignment): Held {
@@ -49,8 +51,11 @@ export const restDesk: Desk = {
     const options = { params: path(held), body, keepalive: true }; // also while the page closes
     return unwrap(api.POST('/api/v1/assignments/{assignment}/release', options));
   },
-  retract(held) {
-    const body = { token: held.token };
+  leave(tab, keep) {
+    return unwrap(api.POST('/api/v1/assignments/leave', { body: { tab, keep }, keepalive: true }));
+  },
+  retract(held, tab) {
+    const body = { token: held.token, tab };
     return unwrap(api.POST('/api/v1/assignments/{assignment}/retract', { params: path(held), body }));
   },
   me: () => unwrap(api.GET('/api/v1/me')),

@@ -43,7 +43,7 @@ describe('the outbox', () => {
 
 describe('the mailer', () => {
   const answer = vi.fn<SendAnswer>();
-  const next: Lease = wish(null, 0);
+  const next: Lease = wish(null, 'page', 0);
   const listener = { stored: vi.fn(), refused: vi.fn() };
   let outbox: Outbox = [];
   const newMailer = (): Mailer => {

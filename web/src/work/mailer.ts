@@ -37,6 +37,11 @@ export class Mailer {
     };
   }
 
+  /** The assignments whose answers the server does not have yet. */
+  unsent(): number[] {
+    return this.#outbox.map((letter) => letter.assignment);
+  }
+
   /** Send an answer now; null when it is refused or has to be tried again. */
   async send(letter: Letter, next: Lease): Promise<Receipt | null> {
     this.#set(outboxes.add(this.#outbox, letter));

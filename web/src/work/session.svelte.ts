@@ -46,6 +46,7 @@ export class WorkSession {
   #lookup = new AbortController();
   #lookupAhead = new AbortController();
   #heartbeat = NO_HEARTBEAT;
+  #tab = newName('page');
   #ahead: readonly Ahead[] = [];
   #expected = 0; // requests under way that may bring a query to be kept ahead
   #sending: Promise<unknown> = Promise.resolve();
@@ -90,6 +91,7 @@ export class WorkSession {
 
   /** The page is back, out of the browser's memory of it. */
   resume(): void {
+    this.#tab = newName('page');
     if (this.assignment === null) void this.#lookForWork();
   }
 
@@ -99,7 +101,7 @@ export class WorkSession {
     this.#heartbeat.stop();
     this.notice = null;
     this.phase = 'sending';
-    const sent = this.#send({ ...held, answer, key: newKey(held.assignment), attempts: 0 });
+    const sent = this.#send({ ...held, answer, key: newName(`answer-${held.assignment}`), attempts: 0 });
     this.#sending = Promise.all([this.#sending, sent]);
     this.#showAhead();
   }
@@ -131,7 +133,7 @@ export class WorkSession {
       return;
     }
     try {
-      const assignment = await this.#desk.retract(last);
+      const assignment = await this.#desk.retract(last, this.#tab);
       this.#sent = this.#sent.slice(0, -1);
       this.#postpone();
       this.#show(assignment);
@@ -143,7 +145,7 @@ export class WorkSession {
 
   async #send(letter: Letter): Promise<void> {
     const isNextThere = this.#ahead.length > 0;
-    const next = wish(this.#run, isNextThere ? 0 : NEXT_SECONDS, isNextThere);
+    const next = wish(this.#run, this.#tab, isNextThere ? 0 : NEXT_SECONDS, isNextThere);
     const receipt = await this.#expecting(this.#mailer.send(letter, next));
     if (receipt !== null) this.#sent = [...this.#sent, letter].slice(-UNDO_DEPTH);
     if (receipt?.next) this.#receive(receipt.next);
@@ -217,7 +219,9 @@ export class WorkSession {
     if (this.#ahead.length > 0 || this.#expected > 0 || this.phase !== 'task') return;
     const { signal } = (this.#lookupAhead = new AbortController());
     try {
-      const found = await this.#expecting(this.#desk.lease(wish(this.#run, POLL_SECONDS, true), signal));
+      const found = await this.#expecting(
+        this.#desk.lease(wish(this.#run, this.#tab, POLL_SECONDS, true), signal),
+      );
       if (found !== null) this.#receive(found);
     } catch {
       // The next query comes with the receipt.
@@ -241,8 +245,8 @@ export class WorkSession {
       try {
         await visible(signal);
         const found =
-          (await this.#mailer.flush(wish(this.#run, 0))) ??
-          (await this.#desk.lease(wish(this.#run, wait), signal));
+          (await this.#mailer.flush(wish(this.#run, this.#tab, 0))) ??
+          (await this.#desk.lease(wish(this.#run, this.#tab, wait), signal));
         if (found !== null) return this.#receive(found);
         [attempts, wait] = [0, POLL_SECONDS];
         this.phase = 'waiting';
@@ -291,16 +295,13 @@ export class WorkSession {
     this.#warn(reason.message);
   }
 
+  /** Give back what was leased, and what is being leased, to this page; not what is being answered. */
   #setAside(): void {
     this.#lookup.abort();
     this.#lookupAhead.abort();
-    const waiting = this.#waiting();
     this.#hold([]);
-    for (const assignment of waiting) void this.#giveBack(heldOf(assignment));
-    const held = this.#held();
-    if (held === null || this.phase === 'sending') return;
-    this.#forget();
-    void this.#giveBack(held);
+    if (this.phase !== 'sending') this.#forget();
+    this.#desk.leave(this.#tab, this.#mailer.unsent()).catch(() => undefined); // the leases end by themselves
   }
 
   async #giveBack(held: Held): Promise<void> {
@@ -358,7 +359,8 @@ function refusalWords(reason: Refused): string {
   return `That answer was not taken: ${reason.message}`;
 }
 
-function newKey(assignment: number): string {
+/** A name that nobody else has. */
+function newName(what: string): string {
   const random = crypto.getRandomValues(new Uint32Array(2));
-  return `answer-${assignment}-${[...random].map((part) => part.toString(16)).join('')}`;
+  return `${what}-${[...random].map((part) => part.toString(16)).join('')}`;
 }

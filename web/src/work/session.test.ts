@@ -30,7 +30,10 @@ class FakeDesk implements Desk {
   readonly renew = vi.fn<Desk['renew']>(() => Promise.resolve());
   readonly retract = vi.fn<Desk['retract']>();
 
+  wished: Lease | null = null;
+
   lease(wish: Lease): Promise<Assignment | null> {
+    this.wished = wish;
     const found = (wish.ahead ? this.later : this.offered).shift();
     if (found !== undefined) return Promise.resolve(found);
     return wish.wait === 0 ? Promise.resolve(null) : new Promise(() => undefined);
@@ -40,6 +43,8 @@ class FakeDesk implements Desk {
     this.released.push(held.assignment);
     return Promise.resolve();
   }
+
+  readonly leave = vi.fn<Desk['leave']>(() => Promise.resolve());
 
   me(): Promise<never> {
     return Promise.reject(new Unreachable());
@@ -139,11 +144,22 @@ describe('a session', () => {
     expect(shown()).toBe(2);
   });
 
-  it('gives back all that it holds when the page goes', async () => {
+  it('says when the page goes, and what it still answers', async () => {
     await started([assignment(1)], [assignment(2)]);
+    answer.mockReturnValue(new Promise(() => undefined));
+    session.submit(PASS);
     session.leave();
-    expect(desk.released.toSorted()).toEqual([1, 2]);
+    expect(desk.leave).toHaveBeenCalledExactlyOnceWith(desk.wished?.tab, [1]);
     expect(shown()).toBeUndefined();
+  });
+
+  it('comes back as another page', async () => {
+    await started([assignment(1)]);
+    session.leave();
+    const before = desk.wished?.tab;
+    session.resume();
+    await settled();
+    expect(desk.wished?.tab).not.toBe(before);
   });
 
   it('gives back what comes after it was stopped', async () => {
