@@ -32,7 +32,7 @@ from server import wire
 DOMAIN = MazeDomain()
 ORACLE = OracleExpert(DOMAIN)
 DEMONSTRATIONS, UNSEEN = 600, 200
-HI_SAMPLES, LO_SAMPLES = 200_000, 20_000
+HI_SAMPLES, LO_SAMPLES = 200_000, 100_000
 FIRES = PAPER.choosing.termination_threshold
 
 
