@@ -133,7 +133,7 @@ class Separate:
     def __call__(self, observations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return chosen actions and the probability that beta_g is true."""
         logits = self.ending(observations).logits
-        return self.acting(observations).logits.argmax(1), 1 / (1 + np.exp(logits[:, 0] - logits[:, 1]))
+        return self.acting(observations).logits.argmax(1), np.exp(-np.logaddexp(0, logits[:, 0] - logits[:, 1]))
 
 
 class Headed:
