@@ -118,7 +118,9 @@ class Leave(Message):
     """A page is going: give back all it holds, and lease nothing more to it."""
 
     tab: Tab
-    keep: list[int] = Field(max_length=1_000, description="Assignments whose answers are still being sent.")
+    keep: list[Annotated[int, Field(ge=1, le=2**63 - 1)]] = Field(
+        max_length=1_000, description="Assignments whose answers are still being sent."
+    )
 
 
 class Renewal(Message):

@@ -198,7 +198,7 @@ def test_the_same_sweep_runs_on_a_ray_cluster(tmp_path: Path, token: tuple[str, 
     command = [sys.executable, "-c", RAY_SCRIPT, str(at.checkpoints), at.server, at.token]
     env = {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path.cwd()), *filter(None, sys.path)])}
     done = subprocess.run(command, env=env, capture_output=True, text=True)  # Ray leaves threads and sockets behind
-    assert done.stdout.strip().splitlines()[-1:] == ["{}"], done.stderr
+    assert "{}" in done.stdout.splitlines(), done.stdout + done.stderr  # Ray may have more to say
     with at.connect() as connection:
         assert sorted(run.state for run in connection.learner.runs()) == ["finished", "finished"]
 

@@ -28,6 +28,7 @@ MATRIX: dict[str, set[str]] = {
     "answer": {"admin", "annotator"},
     "renew": {"admin", "annotator"},
     "release": {"admin", "annotator"},
+    "leave": {"admin", "annotator"},
     "retract": {"admin", "annotator"},
     "putFrames": {"admin", "learner"},
     "missingFrames": {"admin", "learner"},
