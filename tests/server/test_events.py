@@ -77,6 +77,7 @@ def test_a_stream_brings_news_at_once(real: Service) -> None:
 
 def test_open_streams_and_waits_do_not_hold_the_server_up(sqlite_url: str) -> None:
     done: list[int] = []
+    is_open = threading.Event()
     with httpx2.Client(timeout=30) as client:
         with serving.background(Settings(database=sqlite_url)) as served:
             client.base_url = served.url
@@ -84,7 +85,13 @@ def test_open_streams_and_waits_do_not_hold_the_server_up(sqlite_url: str) -> No
             run = service.learner.create_run()
 
             def follow() -> None:
-                done.append(len(events(service.viewer, run, 99)))
+                n = 0
+                url, since = f"{API}/runs/{run}/events", {"after": 0}
+                with client.stream("GET", url, params=since, headers=service.viewer.headers) as reply:
+                    for line in reply.iter_lines():
+                        n += line.startswith("data: ")
+                        is_open.set()
+                done.append(n)
 
             def wait() -> None:
                 done.append(-1 if service.annotator.lease(wait=30, expect=204) is None else 0)
@@ -92,7 +99,8 @@ def test_open_streams_and_waits_do_not_hold_the_server_up(sqlite_url: str) -> No
             threads = [threading.Thread(target=follow), threading.Thread(target=wait)]
             for thread in threads:
                 thread.start()
-            time.sleep(0.5)
+            assert is_open.wait(10)
+            time.sleep(1)
             stopping = time.monotonic()
         assert time.monotonic() - stopping < 2
         for thread in threads:
