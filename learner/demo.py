@@ -9,15 +9,19 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import typer
+from sqlalchemy import exists, select
 
 from server import people, serving, wire
 from server.cli import login_url
+from server.database import Database
 from server.settings import Settings
+from server.tables import queries
 
 DEFER_SECONDS = 25.0  # how long the bot leaves a question to a person at work
 WARM_START = 20
 PRESET = "demo"
 LINK_SECONDS = 86_400.0
+PATIENCE_SECONDS = 120.0  # the link is printed by then, whatever the learner does
 
 
 def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
@@ -47,9 +51,6 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
             return process
 
         typer.echo(f"Waypost is at {served.url}; what is answered is kept in {database}.")
-        typer.echo("A learner asks about mazes. Answer with the keyboard; a bot answers whatever you leave.")
-        typer.echo(f"Open this link, once: {login_url(served.db, served.url, 'you', 'admin', LINK_SECONDS)}")
-        typer.echo("Press Ctrl-C to stop.")
         start("oracle-bot", "annotator", "oracle", "--defer", str(DEFER_SECONDS))
         # Nobody need play the whole warm start before there is something to judge.
         start("demonstrator", "annotator", "oracle", "--kinds", "hier_demo")
@@ -58,6 +59,11 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
         checkpoints = ("--checkpoints", str(database.with_name(f"{database.name}.checkpoints")))
         learner = start("demo-learner", "learner", *train, *values, *checkpoints)
         try:
+            typer.echo(f"A bot shows a learner {WARM_START} ways through mazes; then it begins to ask.")
+            wait_for_questions(served.db, learner)
+            typer.echo("Answer with the keyboard; a bot answers whatever you leave.")
+            typer.echo(f"Open this link, once: {login_url(served.db, served.url, 'you', 'admin', LINK_SECONDS)}")
+            typer.echo("Press Ctrl-C to stop.")
             if learner.wait():
                 typer.echo(f"The learner stopped before the end; {log.name} says why.", err=True)
             else:
@@ -66,3 +72,13 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
                 time.sleep(3_600)
         except KeyboardInterrupt:
             typer.echo("Stopped.")
+
+
+def wait_for_questions(db: Database, learner: subprocess.Popen[bytes]) -> None:
+    """Wait until a learner that has just begun asks what is quickly answered: not for demonstrations any more."""
+    began = time.time()
+    there = exists().where(queries.c.kind != "hier_demo", queries.c.created_at >= began)
+    while learner.poll() is None and time.time() < began + PATIENCE_SECONDS:
+        if db.read_now(lambda tx: bool(tx.conn.execute(select(there)).scalar_one())):
+            return
+        time.sleep(0.2)
