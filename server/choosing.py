@@ -123,19 +123,8 @@ def _plain_offer(kinds: Kinds | None, one_run: bool, shared: bool) -> Offer:
 
 def _kept_for_another() -> ColumnElement[bool]:
     """Return the condition that a query is new, and was asked after an answer of somebody else who is at work."""
-    earlier = queries.alias("earlier")
-    last_annotator = (
-        select(answers.c.user_id)
-        .join(earlier, earlier.c.answer_id == answers.c.id)
-        .where(earlier.c.run_id == queries.c.run_id, earlier.c.episode == queries.c.episode)
-        .where(earlier.c.state == "answered", answers.c.created_at <= queries.c.created_at)
-        .order_by(answers.c.id.desc())
-        .limit(1)
-        .correlate(queries)
-        .scalar_subquery()
-    )
     other = exists().where(
-        present.c.user_id == last_annotator,
+        present.c.user_id == queries.c.follows_user_id,
         present.c.user_id != bindparam("user"),
         presence.AT_WORK,
         presence.takes(),

@@ -1,6 +1,6 @@
 """Queries: asking, seeing and using. A query is known by (run, episode, ordinal) and its content."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -202,6 +202,7 @@ def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Cont
 
 def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, reserves: Sequence[int]) -> list[int]:
     """Store new queries and their events, many at once; returns their ids in the same order."""
+    answered_last = _answered_last(tx, run_row.id, {one.ask.episode for one in new})
     rows = [
         {
             "run_id": run_row.id,
@@ -217,6 +218,7 @@ def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, re
             "revision": 0,
             "used": False,
             "created_at": tx.now,
+            "follows_user_id": answered_last.get(one.ask.episode),
         }
         for one, reserve in zip(new, reserves, strict=True)
     ]
@@ -225,6 +227,21 @@ def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, re
         data = {"query": query, "kind": one.ask.kind, "episode": one.ask.episode, "ordinal": one.ask.ordinal}
         events.add(tx, run_row.id, "asked", data)
     return ids
+
+
+def _answered_last(tx: Tx, run: str, episodes: Collection[int]) -> dict[int, int]:
+    """Return who answered each of these episodes last, if anybody did."""
+    newest = (
+        select(func.max(queries.c.answer_id))
+        .where(queries.c.run_id == run, queries.c.state == "answered", queries.c.episode.in_(episodes))
+        .group_by(queries.c.episode)
+    )
+    rows = tx.conn.execute(
+        select(queries.c.episode, answers.c.user_id)
+        .join(answers, answers.c.id == queries.c.answer_id)
+        .where(answers.c.id.in_(newest))
+    )
+    return {row.episode: row.user_id for row in rows}
 
 
 def use(tx: Tx, query: int) -> wire.Query:

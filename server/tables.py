@@ -124,6 +124,8 @@ queries = Table(
     Column("answer_id", RowId, ForeignKey("answers.id", use_alter=True), unique=True),
     Column("used", Boolean, nullable=False),
     Column("created_at", Float, nullable=False),
+    # Who answered its episode last when it was asked; kept here, or handing out would read all answers of an episode.
+    Column("follows_user_id", RowId, ForeignKey("users.id")),
     one_of("kind", *KIND_WORDS),
     # open -> leased -> answered | cancelled; leased -> open: given back or expired; answered -> leased: retracted.
     one_of("state", "open", "leased", "answered", "cancelled"),
