@@ -52,6 +52,7 @@ export class WorkSession {
   #sending: Promise<unknown> = Promise.resolve();
   #sent: readonly Held[] = []; // what can be undone, oldest first
   #stopped = false;
+  #stored = 0; // answers, since the page was opened
   #meAt = 0;
 
   constructor(
@@ -96,8 +97,8 @@ export class WorkSession {
   }
 
   submit(answer: Answer): void {
-    const held = this.#held();
-    if (held === null || this.phase !== 'task') return;
+    if (this.assignment === null || this.phase !== 'task') return;
+    const held = heldOf(this.assignment);
     this.#heartbeat.stop();
     this.notice = null;
     this.phase = 'sending';
@@ -318,11 +319,8 @@ export class WorkSession {
     this.phase = 'loading';
   }
 
-  #held(): Held | null {
-    return this.assignment && heldOf(this.assignment);
-  }
-
   #count(): void {
+    this.#stored += 1;
     if (this.me)
       this.me = { ...this.me, answers: this.me.answers + 1, answers_today: this.me.answers_today + 1 };
     if (performance.now() - this.#meAt > ME_EVERY_MS) void this.#refreshMe();
@@ -330,8 +328,11 @@ export class WorkSession {
 
   async #refreshMe(): Promise<void> {
     this.#meAt = performance.now();
+    const stored = this.#stored;
     try {
-      this.me = await this.#desk.me();
+      const me = await this.#desk.me();
+      if (stored === this.#stored) this.me = me;
+      else void this.#refreshMe(); // an answer was stored meanwhile, which these numbers may be without
     } catch {
       // The numbers in the footer stay as they were.
     }

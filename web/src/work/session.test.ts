@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Refused, Unreachable } from '../api/client';
-import type { Assignment, Lease, Receipt } from '../api/types';
+import type { Assignment, Lease, Me, Receipt } from '../api/types';
 import type { Desk, Held, SendAnswer } from './desk';
 import { Mailer } from './mailer';
 import { WorkSession } from './session.svelte';
@@ -46,9 +46,7 @@ class FakeDesk implements Desk {
 
   readonly leave = vi.fn<Desk['leave']>(() => Promise.resolve());
 
-  me(): Promise<never> {
-    return Promise.reject(new Unreachable());
-  }
+  readonly me = vi.fn<Desk['me']>(() => Promise.reject(new Unreachable()));
 }
 
 describe('a session', () => {
@@ -73,6 +71,7 @@ describe('a session', () => {
     active = false;
     desk = new FakeDesk();
     desk.renew.mockImplementation(() => Promise.resolve());
+    desk.me.mockRejectedValue(new Unreachable());
     const mailer = new Mailer(answer, sessionStorage, () => undefined);
     session = new WorkSession(desk, mailer, null, () => active, prepare);
   });
@@ -88,6 +87,19 @@ describe('a session', () => {
     session.submit(PASS);
     expect([shown(), session.phase]).toEqual([2, 'task']);
     expect(answer.mock.calls[0]?.[1]).toMatchObject({ wait: 0, ahead: true });
+  });
+
+  it('counts an answer that was stored while its numbers were on their way', async () => {
+    const today = (answers: number): Me => ({ answers_today: answers }) as Me;
+    let arrive = (_: Me): void => undefined;
+    desk.me.mockReturnValueOnce(new Promise((resolve) => (arrive = resolve))).mockResolvedValueOnce(today(1));
+    answer.mockResolvedValue(receipt(null));
+    await started([assignment(1)]);
+    session.submit(PASS);
+    await settled();
+    arrive(today(0));
+    await settled();
+    expect(session.me?.answers_today).toBe(1);
   });
 
   it('without one, shows what comes with the receipt', async () => {
