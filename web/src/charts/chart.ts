@@ -169,6 +169,16 @@ export function rowAt(series: Pick<Series, 'x'>, x: number): number | null {
   return low === 0 ? null : low - 1;
 }
 
+/** What a series says at x, in words: with its range, where it has one. */
+export function readingOf(one: Series, x: number, format: (value: number) => string): string {
+  const row = rowAt(one, x);
+  const value = row === null ? null : one.y[row];
+  if (row === null || value === null || value === undefined) return '–';
+  if (one.filled !== 'soft') return format(value);
+  const [low, high] = [one.low?.[row] ?? value, one.high?.[row] ?? value];
+  return low === high ? format(value) : `${format(value)} (${format(low)} to ${format(high)})`;
+}
+
 /** The stop nearest to x. */
 export function nearest(stops: readonly number[], x: number): number {
   const at = rowAt({ x: [...stops, Infinity] }, x) ?? 0;
