@@ -35,7 +35,7 @@ def upgrade() -> None:
 
 def _fill(table: str) -> None:
     """Both tables are append-only, held by a trigger that rests here."""
-    fill = (
+    fill = (  # the names and the number are ours
         f"UPDATE {table} SET active_seconds = CASE WHEN seconds > {IDLE_SECONDS} THEN {IDLE_SECONDS} "  # noqa: S608
         f"WHEN seconds < -{IDLE_SECONDS} THEN -{IDLE_SECONDS} ELSE seconds END"
     )
