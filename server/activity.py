@@ -8,9 +8,8 @@ that is leased ahead begins to cost when the one before it is answered.
 from typing import Any
 
 from sqlalchemy import bindparam, exists, select, update
-from sqlalchemy.dialects import postgresql, sqlite
 
-from server.database import Tx
+from server.database import UPSERTS, Tx
 from server.tables import IS_LIVE, activity, assignments
 
 _KNOWN = select(activity).where(activity.c.user_id == bindparam("user")).with_for_update()
@@ -28,7 +27,7 @@ def _begin(insert: Any) -> Any:
     return new.on_conflict_do_update(index_elements=["user_id"], set_=started, where=~holding)
 
 
-_BEGIN = {"sqlite": _begin(sqlite.insert), "postgresql": _begin(postgresql.insert)}
+_BEGIN = {name: _begin(insert) for name, insert in UPSERTS.items()}
 
 
 def begin(tx: Tx, user: int) -> None:

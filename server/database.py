@@ -10,7 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from sqlalchemy import Connection, Engine, Float, create_engine, event, make_url
+from sqlalchemy import Connection, Engine, Float, Table, create_engine, event, make_url
+from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.engine import URL
 from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
 from sqlalchemy.ext.compiler import compiles
@@ -45,6 +46,9 @@ def _postgresql_clock(*_: Any, **_options: Any) -> str:
 
 _NOW = select(clock())
 
+# An INSERT that can say what to do on a conflict: each database's own, and written alike.
+UPSERTS: dict[str, Callable[[Table], Any]] = {"sqlite": sqlite.insert, "postgresql": postgresql.insert}
+
 
 @dataclass
 class Tx:
@@ -65,6 +69,10 @@ class Tx:
     def one_writer(self) -> bool:
         """Whether units of work run one after the other, so that nothing needs a lock (SQLite)."""
         return self.conn.dialect.name == "sqlite"
+
+    def upsert(self, table: Table) -> Any:
+        """Return an INSERT that can say what to do `on_conflict`."""
+        return UPSERTS[self.conn.dialect.name](table)
 
     def wake(self, *topics: str) -> None:
         """Have whoever waits on these topics look again, once this is committed."""

@@ -6,7 +6,6 @@ import hashlib
 from collections.abc import Iterable, Sequence
 
 from sqlalchemy import select
-from sqlalchemy.dialects import postgresql, sqlite
 
 from server import errors, wire
 from server.database import Tx
@@ -60,8 +59,7 @@ def store(tx: Tx, files: dict[str, bytes]) -> None:
     """Keep frames; those that are there stay as they are."""
     rows = [{"hash": one, "png": files[one], "created_at": tx.now} for one in missing(tx, files)]
     if rows:
-        upsert = sqlite.insert if tx.conn.dialect.name == "sqlite" else postgresql.insert
-        tx.conn.execute(upsert(frames).on_conflict_do_nothing(), rows)  # another learner may be storing the same
+        tx.conn.execute(tx.upsert(frames).on_conflict_do_nothing(), rows)  # another learner may be storing the same
 
 
 def find(tx: Tx, frame: str) -> bytes:

@@ -187,7 +187,9 @@ def why_not(tx: Tx, code: str) -> errors.Unauthenticated:
     return errors.LoginExpired("This login link is too old; ask for a new one.")
 
 
-_STANDING = select(users.c.role, users.c.deactivated_at).where(users.c.id == bindparam("user"))
+_STANDING = (
+    select(users.c.role, users.c.deactivated_at).where(users.c.id == bindparam("user")).with_for_update(read=True)
+)
 _FIND = (
     select(users.c.id, users.c.name, users.c.role, credentials.c.id.label("credential"))
     .add_columns(credentials.c.expires_at, credentials.c.last_used_at)
@@ -212,6 +214,8 @@ def find(tx: Tx, secret_hash: str, kind: CredentialKind) -> Found | None:
 
 def refuse_gone(tx: Tx, user: int) -> None:
     """Refuse work to somebody who was deactivated, or lost the role for it, while they waited.
+
+    Until the work is given, none of their pages can say that it goes (`departures`).
 
     Raises:
         Unauthenticated, Forbidden: accordingly.

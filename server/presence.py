@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from sqlalchemy import Row, and_, bindparam, exists, false, func, literal, or_, select
-from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.sql.elements import ColumnElement
 
 from server import wire
@@ -23,11 +22,9 @@ def note(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None) 
     known = tx.conn.execute(_KNOWN, {"user": user}).one_or_none()
     if known and (known.run_id, known.kinds) == (run, words) and known.asked_at > tx.now - REFRESH_SECONDS:
         return
-    upsert = sqlite.insert if tx.conn.dialect.name == "sqlite" else postgresql.insert
     values: dict[str, Any] = {"run_id": run, "kinds": words, "asked_at": tx.now}
-    tx.conn.execute(
-        upsert(presence).values(user_id=user, **values).on_conflict_do_update(index_elements=["user_id"], set_=values)
-    )
+    new = tx.upsert(presence).values(user_id=user, **values)
+    tx.conn.execute(new.on_conflict_do_update(index_elements=["user_id"], set_=values))
 
 
 # Asked after `since`, or holds a lease `now`.

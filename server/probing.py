@@ -12,7 +12,6 @@ from math import ceil, floor
 from typing import Any
 
 from sqlalchemy import Row, bindparam, exists, func, insert, select, update
-from sqlalchemy.dialects import postgresql, sqlite
 
 from server import canonical, live, marking, queries, runs, wire
 from server.choosing import Taker
@@ -89,8 +88,7 @@ def instead(tx: Tx, taker: Taker, query: int) -> int:
 
 def _next_place(tx: Tx, user: int, run: str) -> Place:
     """Return where an annotator is, and move on."""
-    upsert = sqlite.insert if tx.conn.dialect.name == "sqlite" else postgresql.insert
-    statement = upsert(gold_streams).values(user_id=user, run_id=run, handed=1)
+    statement = tx.upsert(gold_streams).values(user_id=user, run_id=run, handed=1)
     moved = statement.on_conflict_do_update(
         index_elements=["user_id", "run_id"], set_={"handed": gold_streams.c.handed + 1}
     ).returning(gold_streams.c.handed)

@@ -2,15 +2,18 @@
 
 import asyncio
 import random
+import threading
 import time
 from collections import Counter
 from typing import Any
 
 import httpx2
 
+from server import queue, wire
 from server.app import create_app
+from server.database import Tx
 from server.settings import Settings
-from tests.server.kit import VOCABULARY, Json, Service, query, right_answer, together
+from tests.server.kit import VOCABULARY, Json, Service, in_process, query, right_answer, together
 
 LEASE_SECONDS = 2.0
 N_QUERIES = 500
@@ -124,3 +127,31 @@ def test_an_answer_is_either_used_or_taken_back(service: Service) -> None:
             service.annotator.answer(again)
     assert set(outcomes) <= {(200, 409), (409, 200)}
     assert service.learner.costs(run)["total"] == 15
+
+
+def test_a_query_leased_while_its_page_says_that_it_goes_is_open_again(database_url: str) -> None:
+    with in_process(database_url) as service:
+        service.learner.ask(service.learner.create_run(), query())
+        user = service.annotator.get("/me")["id"]
+        wish = queue.Wish.of(wire.Lease(tab="one"), user, Settings(database=database_url))
+        is_leased = threading.Event()
+
+        def lease(tx: Tx) -> None:
+            assert queue.lease(tx, wish) is not None
+            is_leased.set()
+            time.sleep(0.5)  # not committed yet
+
+        leasing = threading.Thread(target=service.db.write_now, args=(lease,))
+        leasing.start()
+        is_leased.wait()
+        service.annotator.leave("one")
+        leasing.join()
+        assert service.annotator.get("/assignments")["assignments"] == []
+        service.annotator.lease(tab="two")
+
+
+def test_a_page_may_say_many_times_at_once_that_it_goes(database_url: str) -> None:
+    with in_process(database_url) as service:
+        together(lambda _: service.annotator.leave("one"), 8)
+        service.learner.ask(service.learner.create_run(), query())
+        assert service.annotator.lease(tab="one", expect=204) is None
