@@ -7,6 +7,7 @@ ledger and every query must be as the model has them.
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import count
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -25,6 +26,7 @@ from tests.server.kit import Json, Service, in_process, query, right_answer
 PRICE = {"inspect_full": 1, "label_lo": 3, "label_hi": 1, "label_full": 2, "hier_demo": 4}
 RESERVE = PRICE | {"hier_demo": 10}
 BUDGET = 40
+_numbers = count()  # all examples share a server, which remembers pages that have gone
 
 
 @dataclass
@@ -52,6 +54,7 @@ class Model(RuleBasedStateMachine):
         self.run = self.service.learner.create_run(budget=BUDGET)
         self.queries: list[ModelQuery] = []
         self.state = "running"
+        self.pages = [f"page-{next(_numbers)}" for _ in self.people]
 
     def those(self, *states: str) -> list[ModelQuery]:
         return [one for one in self.queries if one.state in states]
@@ -108,7 +111,7 @@ class Model(RuleBasedStateMachine):
     @rule(who=st.integers(0, 1), kinds=st.none() | st.sets(st.sampled_from(sorted(PRICE)), min_size=1))
     def lease(self, who: int, kinds: set[str] | None) -> None:
         offered = [one for one in self.those("open") if who not in one.skipped_by and (not kinds or one.kind in kinds)]
-        wish = {"run": self.run, "kinds": sorted(kinds) if kinds else None}
+        wish = {"run": self.run, "kinds": sorted(kinds) if kinds else None, "tab": self.pages[who]}
         if not offered or self.state != "running":
             self.people[who].lease(expect=204, **wish)
             return
@@ -156,6 +159,17 @@ class Model(RuleBasedStateMachine):
         one.state, one.assignment = "open", None
         one.skipped_by |= {one.holder} if skip else set()
 
+    @rule(who=st.integers(0, 1), keep=st.booleans())
+    def leave(self, who: int, keep: bool) -> None:
+        held = [one for one in self.those("leased") if one.holder == who]
+        kept = held[:1] if keep else []
+        self.people[who].leave(self.pages[who], *(one.assignment for one in kept if one.assignment))
+        for one in held[len(kept) :]:
+            one.state, one.assignment = "open", None
+        self.people[who].lease(expect=204, run=self.run, tab=self.pages[who])
+        self.pages[who] = f"page-{next(_numbers)}"
+        self.seen["left holding some"] += len(held) > len(kept)
+
     @precondition(lambda self: self.those("answered"))
     @rule(data=st.data())
     def retract(self, data: st.DataObject) -> None:
@@ -163,7 +177,7 @@ class Model(RuleBasedStateMachine):
         assert one.assignment is not None
         fits = self.spent + self.reserved + RESERVE[one.kind] - PRICE[one.kind] <= BUDGET
         refused = 409 if one.used or self.state == "finished" else 200 if fits else 402
-        again = self.people[one.holder].retract(one.assignment, expect=refused)
+        again = self.people[one.holder].retract(one.assignment, expect=refused, tab=self.pages[one.holder])
         self.seen[f"retracted {refused}"] += 1
         if refused == 200:
             one.state, one.assignment = "leased", again
@@ -194,7 +208,7 @@ class Model(RuleBasedStateMachine):
 
 @pytest.mark.filterwarnings("ignore::hypothesis.errors.NonInteractiveExampleWarning")
 def test_the_server_does_what_the_model_does(database_url: str) -> None:
-    with in_process(database_url) as service:
+    with in_process(database_url, follow_up_seconds=0) as service:  # the model has no clock
         seen: Counter[str] = Counter()
         machine: Callable[[], Model] = type("Machine", (Model,), {"service": service, "seen": seen})
         run_state_machine_as_test(
@@ -208,4 +222,4 @@ def test_the_server_does_what_the_model_does(database_url: str) -> None:
             ),
         )
     # What the sequences must have met for the test to mean something.
-    assert {"asked 200", "asked 402", "retracted 200", "retracted 409"} <= set(seen), seen
+    assert {"asked 200", "asked 402", "retracted 200", "retracted 409", "left holding some"} <= set(+seen), seen
