@@ -1,7 +1,8 @@
 """Checkpoints: everything a learner is, in one safetensors file, written so that it is never torn.
 
-Tensors: `policy.KEY.NAME` (weights), and while a run is under way also `optimizer.KEY.INDEX.NAME`, `data.KEY.*` (the
-buffers) and `rng.KEY`; for a Q-function `target.KEY.NAME` and `counts.KEY` (steps, updates) too. What else must be
+Tensors: `policy.KEY.NAME` (the weights that act), and while a run is under way also `optimizer.KEY.INDEX.NAME`,
+`data.KEY.*` (the buffers) and `rng.KEY`; where what acts is an average, `trained.KEY.NAME` (what it is of) and
+`averaged.KEY` (of how many); for a Q-function `target.KEY.NAME` and `counts.KEY` (steps, updates). What else must be
 known is JSON in the file's metadata. No code is stored, so none can run.
 """
 
@@ -76,16 +77,19 @@ def load(path: Path, learner: Learner) -> None:
     """
     with safe_open(path, "pt") as file:
         tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118 (no mapping)
-    for key, policy in learner.policies.items():
+    for key, policy in learner.learned.items():
         try:
-            policy.network.load_state_dict(_below(tensors, f"policy.{key}."))
+            policy.acting.load_state_dict(_below(tensors, f"policy.{key}."))
         except RuntimeError as error:
             raise ValueError(f"{path} does not fit the networks that this version of Waypost builds") from error
         if f"rng.{key}" in tensors:
             policy.rng.set_state(tensors[f"rng.{key}"])
             _load_optimizer(policy.optimizer, _below(tensors, f"optimizer.{key}."))
-    for key in learner.imitators:
+    for key, policy in learner.imitators.items():
         if f"rng.{key}" in tensors:
+            if policy.average is not None:
+                policy.network.load_state_dict(_below(tensors, f"trained.{key}."))
+                policy.average.n_averaged.copy_(tensors[f"averaged.{key}"])
             learner.data[key] = Dataset.of(tensors[f"data.{key}.observations"], tensors[f"data.{key}.labels"])
     for key, q in learner.q.items():
         if f"rng.{key}" in tensors:
@@ -104,19 +108,23 @@ def weights_hash(learner: Learner) -> str:
 
 
 def _weights(learner: Learner) -> Iterator[tuple[str, torch.Tensor]]:
-    for key, policy in learner.policies.items():
-        for name, tensor in policy.network.state_dict().items():
+    for key, policy in learner.learned.items():
+        for name, tensor in policy.acting.state_dict().items():
             yield f"policy.{key}.{name}", tensor
 
 
 def _training_state(learner: Learner) -> Tensors:
     tensors: Tensors = {}
-    for key, policy in learner.policies.items():
+    for key, policy in learner.learned.items():
         for index, state in policy.optimizer.state_dict()["state"].items():
             tensors |= {f"optimizer.{key}.{index}.{name}": tensor for name, tensor in state.items()}
         tensors[f"rng.{key}"] = policy.rng.get_state()
     for key, data in learner.data.items():
         tensors |= {f"data.{key}.observations": data.observations, f"data.{key}.labels": data.labels}
+    for key, policy in learner.imitators.items():
+        if policy.average is not None:
+            tensors |= {f"trained.{key}.{name}": tensor for name, tensor in policy.network.state_dict().items()}
+            tensors[f"averaged.{key}"] = policy.average.n_averaged
     for key, q in learner.q.items():
         tensors |= {f"target.{key}.{name}": tensor for name, tensor in q.target.state_dict().items()}
         tensors |= {f"data.{key}.{name}": tensor for name, tensor in q.replay.tensors().items()}

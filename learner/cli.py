@@ -57,6 +57,7 @@ def train(
     warm_start: Annotated[int | None, typer.Option(min=0, help="Demonstrations first; the preset's if absent.")] = None,
     redraw: Annotated[bool, typer.Option(help="Draw training instances until one fails, each episode.")] = False,
     head_start: Annotated[float | None, typer.Option(help="Share of an optimal trajectory done beforehand.")] = None,
+    values: Annotated[str | None, typer.Option(help='Other values than the preset\'s: "relabeling=false".')] = None,
     expert: Annotated[str, typer.Option(help="Who answers: oracle (in this process) or queue.")] = "oracle",
     server: ServerOption = None,
     token: TokenOption = "",
@@ -82,7 +83,7 @@ def train(
         from learner.config import TrainConfig
 
         config = TrainConfig(
-            algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start
+            algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start, values
         )
         training.build_learner(config, threads)  # says what is wrong before there is a store
         options = training.RunOptions(name, budget, resume, checkpoint_folder(checkpoints, store, server), threads)

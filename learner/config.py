@@ -17,6 +17,7 @@ class TrainConfig:
     warm_start: int | None = None  # demonstrations before questions; the preset's number unless given
     redraw: bool = False  # draw training instances until one fails, as the authors counted episodes
     head_start: float | None = None  # this share of an optimal trajectory is carried out before the learner begins
+    values: str | None = None  # other values than the preset's: "relabeling=false train_hi.batch=32"
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import torch
 
-from learner.domains.base import Symmetry
+from learner.domains.base import Structured, Symmetry
 from learner.experience import Transition
 from learner.queries import LoLabels
 from learner.types import FLAT, META, Action, PolicyKey, Segment, Subgoal, Trajectory
@@ -74,11 +74,18 @@ class Labels:
 
     rows: dict[PolicyKey, list[Row]] = field(default_factory=dict)
     transitions: dict[PolicyKey, list[Transition]] = field(default_factory=dict)
+    labeled: list[tuple[Trajectory, tuple[Subgoal, ...]]] = field(default_factory=list)  # on the HI level
 
     def append_hi(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> None:
         """D_HI <- D_HI + {(s_h, g*_h)}."""
+        self.labeled.append((trajectory, tuple(good_subgoals)))
         rows = self.rows.setdefault(META, [])
         rows += [Row(s.start.observation, g) for s, g in zip(trajectory, good_subgoals, strict=True)]
+
+    def relabel(self, domain: Structured) -> None:
+        """D_HI <- D_HI + what the labels of it say of other tasks, as the domain has it."""
+        rows = self.rows.setdefault(META, [])
+        rows += [Row(o, g) for sigma, good in self.labeled for o, g in domain.relabeled(sigma, good)]
 
     def append_lo(self, segment: Segment, labels: LoLabels) -> None:
         """D_g <- D_g + {(s, a*, omega*)}, up to the state where the segment should have ended."""

@@ -6,11 +6,12 @@ from dataclasses import dataclass, field
 import numpy as np
 import torch
 from numpy.typing import NDArray
+from torch import nn
 from torch.nn import functional
 
 from learner.device import DEVICE, has_bf16, laid_out, mixed_precision
 from learner.experience import PseudoReward, Transition
-from learner.networks import NetworkSpec, build_network
+from learner.networks import NetworkSpec, PlanningSpec, build_network
 from learner.policies import Outputs
 
 Tensors = dict[str, torch.Tensor]
@@ -116,7 +117,12 @@ class QFunction:
     """Q over `choices` alternatives, with its target network, its optimizer, its experience and its exploration."""
 
     def __init__(
-        self, observation_shape: tuple[int, ...], choices: int, network: NetworkSpec, spec: DqnSpec, seed: int
+        self,
+        observation_shape: tuple[int, ...],
+        choices: int,
+        network: NetworkSpec | PlanningSpec,
+        spec: DqnSpec,
+        seed: int,
     ) -> None:
         self.spec, self.choices = spec, choices
         self.rng = torch.Generator().manual_seed(seed)
@@ -134,6 +140,11 @@ class QFunction:
         """Evaluate float32[B, observation shape]; the logits of the outputs are Q-values."""
         values = self.network(torch.from_numpy(observations).to(DEVICE))
         return Outputs(values.cpu().numpy(), np.zeros(len(values), np.float32))
+
+    @property
+    def acting(self) -> nn.Module:
+        """The network that acts."""
+        return self.network
 
     @property
     def epsilon(self) -> float:

@@ -1,6 +1,7 @@
 """What reinforcement learning learns from: transitions, read off the segments of a rollout."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,10 @@ class Transition:
     reward: float  # discounted within the transition
     next_observation: NDArray[np.float32]
     steps: int  # how many the choice took; 0 if nothing comes after
+
+    def seen(self, observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]) -> "Transition":
+        """Return the same transition through a view."""
+        return replace(self, observation=observe(self.observation), next_observation=observe(self.next_observation))
 
 
 @dataclass(frozen=True)

@@ -3,18 +3,19 @@
 import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import torch
 
 from learner.datasets import Dataset, Labels
-from learner.domains.base import Domain
+from learner.domains.base import Domain, Structured
 from learner.dqn import QFunction
 from learner.policies import Policy
 from learner.presets.base import Preset
-from learner.rollout import Manner, Rollout, flat_rollout, hierarchical_rollout, run
+from learner.rollout import Manner, Rollout, flat_rollout, hierarchical_rollout, nowhere_twice, run
+from learner.sight import sight
 from learner.simulator import HeadStart, Simulator
 from learner.types import FLAT, META, PolicyKey, State, Trajectory
 
@@ -65,10 +66,13 @@ class Learner:
         self._head_start = head_start
         self.simulator = self.make_simulator()
         keys = [FLAT] if structure.flat else [META, *range(len(domain.subgoals))]
-        self.q = {key: self._q_function(key) for key in keys if (structure.q_hi if key == META else structure.q_lo)}
-        self.imitators = {key: self._policy(key) for key in keys if key not in self.q}
-        self.policies: dict[PolicyKey, Policy | QFunction] = {**self.imitators, **self.q}
-        self.data = {key: Dataset(domain.observation_shape) for key in self.imitators}
+        self._sights = {key: sight(domain, preset, key) for key in keys}
+        own = [key for key in keys if self._sights[key].owner == key]
+        self.q = {key: self._q_function(key) for key in own if (structure.q_hi if key == META else structure.q_lo)}
+        self.imitators = {key: self._policy(key) for key in own if key not in self.q}
+        self.learned: dict[PolicyKey, Policy | QFunction] = {**self.imitators, **self.q}
+        self.policies = {key: one.through(self.learned[one.owner]) for key, one in self._sights.items()}
+        self.data = {key: Dataset(self._sights[key].view.shape) for key in self.imitators}
         self._draw = 0
         # One thread a policy: small networks gain nothing from threads within one operation. What each policy learns
         # depends on its own data and generator, so the number of threads changes nothing but the time.
@@ -79,12 +83,12 @@ class Learner:
         preset = self.preset
         hi = preset.train_hi_hybrid if self.structure.q_lo else preset.train_hi
         train = {META: hi, FLAT: preset.train_flat}.get(key, preset.train_lo)
-        shape, choices, seed = self.domain.observation_shape, self._choices(key), self._seed(key)
-        return Policy(shape, choices, key >= 0, preset.network, train, seed)
+        seen = self._sights[key]
+        return Policy(seen.view.shape, self._choices(key), key >= 0, seen.network, train, self._seed(key))
 
     def _q_function(self, key: PolicyKey) -> QFunction:
-        shape, choices, seed = self.domain.observation_shape, self._choices(key), self._seed(key)
-        return QFunction(shape, choices, self.preset.network, self.preset.dqn, seed)
+        seen = self._sights[key]
+        return QFunction(seen.view.shape, self._choices(key), seen.network, self.preset.dqn, self._seed(key))
 
     def _choices(self, key: PolicyKey) -> int:
         return len(self.domain.subgoals if key == META else self.domain.actions)
@@ -111,27 +115,41 @@ class Learner:
         return run(rollout, self.policies, self._stepped)
 
     def _stepped(self, key: PolicyKey) -> None:
-        if key in self.q:
-            self.q[key].step()
+        owner = self._sights[key].owner
+        if owner in self.q:
+            self.q[owner].step()
 
     def rollout(self, simulator: Simulator, instance: Any, stream: int, number: int) -> Rollout:
         """Return a rollout whose choices depend on the seed, the stream and its number in it alone."""
         rng = np.random.default_rng([self.seed, stream, number])
-        epsilons = {key: q.epsilon if stream == TRAIN else 0.0 for key, q in self.q.items()}
-        h_hi = self.preset.h_hi or self.domain.horizons.hi
-        manner = Manner(self.preset.choosing, rng, h_hi, epsilons, terminations_given=self.structure.q_lo)
+        exploring = {key: self.q[one.owner] for key, one in self._sights.items() if one.owner in self.q}
+        manner = Manner(
+            self.preset.choosing,
+            rng,
+            self.preset.h_hi or self.domain.horizons.hi,
+            {key: q.epsilon if stream == TRAIN else 0.0 for key, q in exploring.items()},
+            self.structure.q_lo,
+            self.preset.repeat_penalty,
+            self.domain.place if isinstance(self.domain, Structured) else nowhere_twice,
+        )
         roll_out = flat_rollout if self.structure.flat else hierarchical_rollout
         return roll_out(simulator, instance, manner)
 
     def learn(self, labels: Labels) -> None:
         """Append to the data buffers, then Train the policies whose turn it is (docs/paper.md, deviation 6)."""
         sizes = {key: len(data) for key, data in self.data.items()}
-        for seen in self._views(labels, self.preset.symmetries):
+        if self.preset.relabeling and isinstance(self.domain, Structured):
+            labels.relabel(self.domain)
+        for seen in self._symmetric(labels, self.preset.symmetries):
             for key, rows in seen.rows.items():
-                self.data[key].append(rows)
-        for seen in self._views(labels, bool(labels.transitions) and self.preset.dqn.symmetries):
+                if key in self.data:  # what is tied to another is learned from in its place
+                    observe = self._sights[key].view.observe
+                    self.data[key].append(replace(row, observation=observe(row.observation)) for row in rows)
+        for seen in self._symmetric(labels, bool(labels.transitions) and self.preset.dqn.symmetries):
             for key, transitions in seen.transitions.items():
-                self.q[key].replay.add(transitions)
+                if key in self.q:
+                    observe = self._sights[key].view.observe
+                    self.q[key].replay.add(one.seen(observe) for one in transitions)
         due = [
             key
             for key, policy in self.imitators.items()
@@ -139,7 +157,7 @@ class Learner:
         ]
         list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), due))
 
-    def _views(self, labels: Labels, symmetric: bool) -> Iterator[Labels]:
+    def _symmetric(self, labels: Labels, symmetric: bool) -> Iterator[Labels]:
         """Yield labels as they are, and as they are in each symmetry of the domain, if so."""
         yield labels
         if symmetric:

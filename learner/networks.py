@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 import torch
 from torch import nn
+from torch.nn import functional
+
+from learner.domains.base import Grid
 
 
 @dataclass(frozen=True)
@@ -12,6 +15,15 @@ class NetworkSpec:
 
     channels: tuple[int, ...] = (32, 64)
     hidden: int = 256
+
+
+@dataclass(frozen=True)
+class PlanningSpec:
+    """A network that plans ways through the places that a view shows."""
+
+    grid: Grid
+    horizon: int  # how many choices ahead it looks
+    features: int  # of a place
 
 
 class Dropout(nn.Module):
@@ -38,15 +50,21 @@ def _random_bytes(like: torch.Tensor, rng: torch.Generator) -> torch.Tensor:
 
 
 def build_network(
-    observation_shape: tuple[int, ...], outputs: int, spec: NetworkSpec, dropout: float, rng: torch.Generator
+    observation_shape: tuple[int, ...],
+    outputs: int,
+    spec: NetworkSpec | PlanningSpec,
+    dropout: float,
+    rng: torch.Generator,
 ) -> nn.Module:
     """Return the network for observations of a shape: (channels, rows, columns) for pictures, (features,) for vectors.
 
-    Dropout comes after each pool and after the fully connected layer.
+    Dropout comes after each pool and after the fully connected layer; a network that plans has none.
 
     Raises:
         ValueError: observations of another shape.
     """
+    if isinstance(spec, PlanningSpec):
+        return PlanningNet(observation_shape[0], outputs, spec, rng)
     if len(observation_shape) == 3:
         return ConvNet(observation_shape, outputs, spec, dropout, rng)
     if len(observation_shape) == 1:
@@ -101,6 +119,55 @@ class DenseNet(nn.Sequential):
         ]
         super().__init__(*layers)
         _initialize(layers, rng)
+
+
+class PlanningNet(nn.Module):
+    """Maps float32[B, C, rows, columns] to the values float32[B, outputs] of the choices where the agent is.
+
+    By what its patch shows, each place has a cost of each choice there. Soft value iteration over the places makes
+    values of choices of these costs: value iteration networks (Tamar et al. 2016) with the moves given by the domain
+    and costs that depend on the place. The agent's place is in the middle of the picture.
+
+    Where to end is no choice of the grid's, ending has a cost all the same; if one more output is asked for, it is the
+    logit of beta_g, of ending rather than going on.
+    """
+
+    def __init__(self, channels: int, outputs: int, spec: PlanningSpec, rng: torch.Generator) -> None:
+        super().__init__()
+        self.moves = [move for move in spec.grid.moves if move is not None]  # ending comes last
+        self.outputs, self.terminates, self.horizon = outputs, outputs > len(spec.grid.moves), spec.horizon
+        self.places = nn.Conv2d(channels, spec.features, spec.grid.patch, spec.grid.stride)
+        self.costs = nn.Conv2d(spec.features, len(self.moves) + 1, 1)
+        _initialize([self.places, self.costs], rng)
+
+    def forward(self, x: torch.Tensor) -> torch.Tensor:
+        """Plan.
+
+        What is iterated is exp(V), which makes each round a sum of products: exp(V) <- sum over choices of
+        exp(-cost) times exp(V) of where it leads.
+        """
+        passable = torch.sigmoid(-self.costs(functional.relu(self.places(x))))  # exp(-cost), cost = softplus
+        moving, ending = passable[:, :-1], passable[:, -1]
+        reached = ending
+        for _ in range(self.horizon - 1):
+            reached = (moving * self._ahead(reached)).sum(1) + ending
+        row, column = (size // 2 for size in ending.shape[1:])
+        here = torch.cat([(moving * self._ahead(reached))[:, :, row, column], ending[:, None, row, column]], 1)
+        if self.terminates:
+            going_on = here[:, :-1].sum(1, keepdim=True)
+            return torch.cat([_log(here[:, :-1]), _log(here[:, -1:]) - _log(going_on)], 1)
+        return _log(here)[:, : self.outputs]
+
+    def _ahead(self, reached: torch.Tensor) -> torch.Tensor:
+        """Return what is reached by each move, float32[B, moves, rows, columns]: nothing beyond the picture."""
+        rows, columns = reached.shape[1:]
+        padded = functional.pad(reached, (1, 1, 1, 1))
+        return torch.stack([padded[:, 1 + r : 1 + r + rows, 1 + c : 1 + c + columns] for r, c in self.moves], 1)
+
+
+def _log(x: torch.Tensor) -> torch.Tensor:
+    """Return the logarithm; what costs more than 80 is all one, as 32-bit floats have nothing much smaller."""
+    return torch.log(x.clamp(min=1e-35))
 
 
 def _initialize(layers: list[nn.Module], rng: torch.Generator) -> None:

@@ -11,11 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 from numpy.typing import NDArray
+from torch import nn
 from torch.nn import functional
+from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 
 from learner.datasets import UNLABELED, Dataset
 from learner.device import DEVICE, has_bf16, laid_out, mixed_precision
-from learner.networks import NetworkSpec, build_network
+from learner.networks import NetworkSpec, PlanningSpec, build_network
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,8 @@ class TrainSpec:
     least: int = 1024  # but so many rows at least: a small buffer is passed over more often,
     most: int = 6144  # and so many at most
     dropout: float = 0.5
+    weight_decay: float = 0.0
+    averaging: float | None = None  # what acts is the average of the weights after each update, decaying at this rate
     every_episode: bool = False  # rather than only after episodes that added to the buffer
     bf16: bool = True  # mixed precision where the processor has bf16 arithmetic
 
@@ -48,7 +52,7 @@ class Policy:
         observation_shape: tuple[int, ...],
         choices: int,
         terminates: bool,
-        network: NetworkSpec,
+        network: NetworkSpec | PlanningSpec,
         train: TrainSpec,
         seed: int,
     ) -> None:
@@ -56,14 +60,25 @@ class Policy:
         self.rng = torch.Generator().manual_seed(seed)
         outputs = choices + int(terminates)
         self.network = build_network(observation_shape, outputs, network, train.dropout, self.rng).to(DEVICE)
-        self.optimizer = torch.optim.Adam(self.network.parameters(), lr=train.learning_rate, fused=True)
+        self.optimizer = torch.optim.AdamW(
+            self.network.parameters(), lr=train.learning_rate, weight_decay=train.weight_decay, fused=True
+        )
         self.bf16 = train.bf16 and has_bf16()
         self.network.eval()
+        self.average: AveragedModel | None = None
+        if train.averaging is not None:
+            decaying = get_ema_multi_avg_fn(train.averaging)  # type: ignore[no-untyped-call]  # torch has no types here
+            self.average = AveragedModel(self.network, multi_avg_fn=decaying)
+
+    @property
+    def acting(self) -> nn.Module:
+        """The network that acts: the one that is trained, or the average of what it was."""
+        return self.network if self.average is None else self.average.module
 
     @torch.inference_mode()
     def __call__(self, observations: NDArray[np.float32]) -> Outputs:
         """Evaluate float32[B, observation shape]."""
-        out = self.network(torch.from_numpy(observations).to(DEVICE)).cpu()
+        out = self.acting(torch.from_numpy(observations).to(DEVICE)).cpu()
         fires = torch.sigmoid(out[:, -1]) if self.terminates else torch.zeros(len(out))
         return Outputs(out[:, : self.choices].numpy(), fires.numpy())
 
@@ -83,6 +98,8 @@ class Policy:
             self.optimizer.zero_grad()
             torch.autograd.backward(loss)
             self.optimizer.step()
+            if self.average is not None:
+                self.average.update_parameters(self.network)
         self.network.eval()
 
     def _loss(self, out: torch.Tensor, labels: torch.Tensor) -> torch.Tensor:

@@ -4,7 +4,8 @@ A rollout is a generator: it yields which policy it needs in which state and rec
 rollout can run alone or many in step, the networks then seeing batches (`run_all`), with the same code.
 """
 
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Generator, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -36,6 +37,11 @@ class Choosing:
     termination_threshold: float = 0.9  # beta_g fires above it
 
 
+def nowhere_twice(_: Any) -> Hashable:
+    """Be no place that another state is in: the place of a state in a domain that knows of none."""
+    return object()
+
+
 @dataclass(frozen=True)
 class Manner:
     """How one rollout chooses."""
@@ -45,6 +51,8 @@ class Manner:
     h_hi: int  # most subgoals of an episode
     epsilons: Mapping[PolicyKey, float] = field(default_factory=dict)  # policies in it choose epsilon-greedily
     terminations_given: bool = False  # terminal(s; g) is the domain's (Algorithm 3), not beta_g's
+    repeat_penalty: float = 0.0  # off the logit of a subgoal, for each time it was chosen in the same place before
+    place: Callable[[Any], Hashable] = nowhere_twice  # where a state is, by its JSON view
 
     def choose(self, policy: PolicyKey, logits: NDArray[np.float32]) -> int:
         """Choose by the outputs of a policy, float32[n]: from their softmax at the temperature, or epsilon-greedily."""
@@ -63,9 +71,13 @@ def hierarchical_rollout(simulator: Simulator, instance: Any, manner: Manner) ->
     """Roll out mu and pi_g until the episode ends or the horizon H_HI is spent; return sigma."""
     sigma: list[Segment] = []
     state = simulator.reset(instance)
+    chosen: Counter[tuple[Hashable, Subgoal]] = Counter()
     while not simulator.ended and len(sigma) < manner.h_hi:
         logits, _ = yield Consult(META, state)
-        subgoal = manner.choose(META, logits)
+        here = manner.place(state.view)
+        before = np.array([chosen[here, subgoal] for subgoal in range(len(logits))], np.float32)
+        subgoal = manner.choose(META, logits - manner.repeat_penalty * before)
+        chosen[here, subgoal] += 1
         segment = yield from execute_subgoal(simulator, state, subgoal, manner)
         sigma.append(segment)
         state = segment.states[-1]

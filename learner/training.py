@@ -95,7 +95,7 @@ def build_learner(config: TrainConfig, threads: int | None) -> tuple[Learner, In
         raise ValueError(f"{config.algorithm} takes every instance as it comes: leave out --redraw")
     if config.head_start is not None and not algorithm.structure.reinforced:
         raise ValueError(f"{config.algorithm} has an expert to learn from: leave out --head-start")
-    preset = find_preset(config.preset)
+    preset = find_preset(config.preset, config.values)
     if config.warm_start is not None:
         preset = replace(preset, warm_start=config.warm_start)
     domain = find_domain(config.domain)

@@ -5,7 +5,7 @@ horizons, JSON views of instances and states, and (optionally) an oracle of a fe
 the paper are derived (`learner/experts/oracle.py`). `learner/domains/corridor.py` is the smallest complete example.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import entry_points
 from typing import Any, Protocol, runtime_checkable
@@ -14,7 +14,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from learner.types import Action, Outcome, Subgoal
+from learner.types import Action, Outcome, Subgoal, Trajectory
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,26 @@ class Symmetry:
     observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]  # the changed observation
     subgoals: tuple[Subgoal, ...]  # what each subgoal becomes
     actions: tuple[Action, ...]  # what each action becomes
+
+
+@dataclass(frozen=True)
+class Grid:
+    """How a picture shows places, so that ways through them can be planned."""
+
+    patch: int  # pixels on a side of the square that shows one place
+    stride: int  # pixels from one place to the next
+    moves: tuple[
+        tuple[int, int] | None, ...
+    ]  # where each choice leads, in places (down, right); None, the last: it ends
+
+
+@dataclass(frozen=True)
+class View:
+    """The part of an observation that a policy is given: what its choices depend on, from where it stands."""
+
+    shape: tuple[int, ...]
+    observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]
+    grid: Grid | None = None  # how it shows places; the agent's is in the middle
 
 
 class Oracle(Protocol):
@@ -102,12 +122,34 @@ class Domain(Protocol):
         """
 
 
+Relabeled = tuple[NDArray[np.float32], Subgoal]
+"""An observation, and a good subgoal there."""
+
+
 @runtime_checkable
 class Pictured(Protocol):
     """A domain that also brings pictures of its states, so that the page can show it without a renderer of its own."""
 
     def frame(self, env: gymnasium.Env[Any, Any]) -> NDArray[np.uint8]:
         """Return the picture of the state that `env` is in, uint8[rows, columns, 3]; at most 4,096 on a side."""
+
+
+@runtime_checkable
+class Structured(Protocol):
+    """A domain that also tells a learner of its structure; the preset says how much of it a learner uses."""
+
+    hi_view: View  # what subgoals are chosen by
+    lo_view: View  # what actions and terminations toward a subgoal are chosen by
+    flat_view: View  # what actions are chosen by without subgoals
+
+    def place(self, state: Any) -> Hashable:
+        """Return where a state is, as far as a choice of subgoals goes; `state` is its JSON view."""
+
+    def relabeled(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Iterable[Relabeled]:
+        """Return what labels of a trajectory say of other tasks, begun and ended elsewhere on its way.
+
+        It may assume what Algorithm 2 does not: that ways can be gone back, say.
+        """
 
 
 def find_domain(name: str) -> Domain:

@@ -22,3 +22,20 @@ class Preset:
     choosing: Choosing
     h_hi: int | None = None  # most subgoals of an episode; the domain's number if None
     symmetries: bool = False  # whether each label is also learned from in the domain's other symmetries
+    tied: bool = (
+        False  # whether one network acts toward all subgoals that are one but for a symmetry; needs `symmetries`
+    )
+    # What is made of a domain's structure, where it tells of it (`learner.domains.base.Structured`):
+    views: bool = False  # whether policies are given the domain's views, rather than all that there is to see
+    planning: int | None = None  # where a view shows places, a network plans over them, by so many features of each
+    repeat_penalty: float = 0.0  # off the logit of a subgoal, for each time it was chosen in the same place before
+    relabeling: bool = False  # whether labels are also learned from as labels of other tasks
+
+    def __post_init__(self) -> None:
+        """Refuse values that contradict each other.
+
+        Raises:
+            ValueError: tied policies without the symmetries through which they learn from each other's labels.
+        """
+        if self.tied and not self.symmetries:
+            raise ValueError("tied=true needs symmetries=true: a policy learns through them what the other was taught")

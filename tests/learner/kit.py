@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +38,22 @@ TINY = Preset(
 )
 """A preset for runs of a second, in which policies make all kinds of mistakes."""
 
+_AVERAGED = replace(TINY_TRAIN, averaging=0.9)
+TINY_LEAN = replace(
+    TINY,
+    train_hi=_AVERAGED,
+    train_lo=_AVERAGED,
+    train_flat=_AVERAGED,
+    train_hi_hybrid=_AVERAGED,
+    symmetries=True,
+    tied=True,
+    views=True,
+    planning=4,
+    repeat_penalty=1.0,
+    relabeling=True,
+)
+"""The same with every part of the preset `lean`."""
+
 examples = settings(deadline=None, max_examples=40)
 """How properties are tried."""
 
@@ -44,7 +61,7 @@ GREEDY = Choosing(temperature=0, termination_threshold=0.9)
 STEPS: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))  # up, down, left, right
 
 
-PRESETS["tiny"] = TINY
+PRESETS["tiny"], PRESETS["tiny-lean"] = TINY, TINY_LEAN
 
 
 @contextmanager

@@ -177,12 +177,12 @@ def test_a_checkpoint_of_other_networks_is_refused_with_a_sentence(path: Path) -
 def test_the_hash_changes_with_any_single_weight() -> None:
     one = learner()
     seen = {weights_hash(one)}
-    for policy in one.policies.values():
+    for policy in one.learned.values():
         for parameter in policy.network.parameters():
             with torch.no_grad():
                 parameter.view(-1)[-1] += 1e-3
             seen.add(weights_hash(one))
-    assert len(seen) == 1 + sum(len(list(policy.network.parameters())) for policy in one.policies.values())
+    assert len(seen) == 1 + sum(len(list(policy.network.parameters())) for policy in one.learned.values())
 
 
 def test_the_hash_depends_on_the_weights_alone() -> None:

@@ -241,8 +241,9 @@ def test_a_bot_answers_only_the_kinds_and_the_run_it_was_told_to(tmp_path: Path)
 
 
 @pytest.mark.parametrize("algorithm", sorted(ALGORITHMS))
-def test_every_algorithm_repeats_itself_to_the_last_bit(tmp_path: Path, algorithm: str) -> None:
-    config = corridor(algorithm=algorithm, head_start=0.5 if algorithm == "h-dqn" else None)
+@pytest.mark.parametrize("lean", [{}, {"preset": "tiny-lean", "domain": "maze", "episodes": 6}])
+def test_every_algorithm_repeats_itself_to_the_last_bit(tmp_path: Path, algorithm: str, lean: dict[str, Any]) -> None:
+    config = corridor(algorithm=algorithm, head_start=0.5 if algorithm == "h-dqn" else None, **lean)
     found, again = at_once(tmp_path / "one", config), at_once(tmp_path / "other", config)
     assert found == again
 

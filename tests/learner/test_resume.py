@@ -84,6 +84,13 @@ def test_a_run_interrupted_at_any_call_and_resumed_is_the_run_that_never_was(tmp
         assert found == expected, f"interrupted at call {call}"
 
 
+@pytest.mark.parametrize("algorithm", ["hg-dagger", "flat-dagger", "hg-dagger-q"])
+def test_averages_and_what_they_are_of_survive_an_interruption(tmp_path: Path, algorithm: str) -> None:
+    config = corridor(algorithm=algorithm, preset="tiny-lean", domain="maze", episodes=8)
+    expected = uninterrupted(tmp_path / "uninterrupted", config)
+    assert interrupted(tmp_path / "interrupted", config, 40, before_it_arrives=True) == expected
+
+
 @pytest.mark.parametrize("algorithm", ["hg-dagger-q", "h-dqn", "flat-dqn"])
 def test_experience_exploration_and_targets_survive_an_interruption(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, algorithm: str

@@ -186,3 +186,17 @@ def test_with_given_terminations_a_subgoal_ends_where_the_domain_says_and_fails_
     backward: Any = {META: Fixed(WEST, 3), WEST: Fixed(1, 2)}  # walks east, toward no aim of the subgoal west
     (first, *_) = run(hierarchical_rollout(Simulator(CorridorDomain()), Corridor(1, 12), manner), backward)
     assert (len(first.actions), first.outcome) == (6, "failed")
+
+
+@pytest.mark.parametrize(
+    ("place", "chosen"),
+    [(lambda _: "the same", [WEST, EAST, WEST, EAST, TARGET]), (lambda _: object(), [WEST] * 5)],
+)
+def test_a_subgoal_that_was_chosen_in_the_same_place_before_is_less_likely(place: Any, chosen: list[int]) -> None:
+    domain = CorridorDomain()
+    logits = np.array([[1.0, 0.8, 0.1]], np.float32)  # west, east, target
+    policies: Any = {META: lambda _: Outputs(logits, np.zeros(1, np.float32))}
+    policies |= {g: lambda _: Outputs(np.zeros((1, 2), np.float32), np.ones(1, np.float32)) for g in range(3)}
+    manner = Manner(GREEDY, np.random.default_rng(0), h_hi=5, repeat_penalty=0.5, place=place)
+    sigma = run(hierarchical_rollout(Simulator(domain), Corridor(11, 0), manner), policies)
+    assert [segment.subgoal for segment in sigma] == chosen

@@ -9,6 +9,7 @@ from learner.domains.maze.files import load_mazes
 from learner.domains.maze.generator import KINDS, maze_set, with_doors_redrawn
 from learner.domains.maze.maze import ACTIONS, GO_TO_TARGET, ROOMS, SIZE, SUBGOALS, Maze, cell_of, room_beside, room_of
 from learner.domains.maze.oracle import MazeOracle
+from learner.domains.maze.structure import FLAT_VIEW, HI_VIEW, LO_VIEW, relabeled
 from learner.domains.maze.symmetries import symmetries
 from learner.types import Outcome, Subgoal
 
@@ -23,6 +24,8 @@ class MazeDomain:
     horizons = Horizons(lo=10, hi=ROOMS**2, full=MAX_STEPS)  # a shortest path enters no room twice
     observation_shape = (3, SIZE, SIZE)
     symmetries = symmetries()
+    hi_view, lo_view, flat_view = HI_VIEW, LO_VIEW, FLAT_VIEW
+    relabeled = staticmethod(relabeled)
 
     def __init__(self) -> None:
         self.oracle = MazeOracle()
@@ -47,6 +50,11 @@ class MazeDomain:
     def state_view(self, env: Any) -> Any:
         """Return the agent's cell, [row, column]."""
         return list(env.unwrapped.cell)
+
+    def place(self, state: Any) -> Any:
+        """Return the agent's room; where it stands in a door, that door."""
+        cell = cell_of(state)
+        return room_of(cell) or cell
 
     def succeeded(self, env: Any) -> bool:
         """Return whether the agent is on the target."""

@@ -119,6 +119,7 @@ def _reader(hint: Any) -> Callable[[str], Any]:
         int: int,
         float: float,
         bool: read_truth,
+        str | None: lambda text: text or None,
         int | None: lambda text: int(text) if text else None,
         float | None: lambda text: float(text) if text else None,
     }

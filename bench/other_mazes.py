@@ -1,0 +1,105 @@
+"""How a run's policy does on mazes of kinds it was never trained on: `python bench/other_mazes.py RUN --store FILE`.
+
+The unseen mazes of both sets, and three hundred of each other kind, drawn from one seed. Prints a table; asserts nothing.
+"""
+
+import argparse
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from learner import checkpoints
+from learner.domains.maze.files import save_mazes
+from learner.domains.maze.maze import Maze, closed_rooms, distances_from, room_of, walls
+from learner.evaluation import evaluate
+from learner.training import build_learner
+
+N = 300  # of each kind drawn here
+_WALLS = list(walls())
+_ROOM_CELLS = [(row, column) for row in range(17) for column in range(17) if room_of((row, column)) is not None]
+Doors = Callable[[np.random.Generator], NDArray[np.bool_]]  # bool[24, 3]: which cells of each wall are doors
+
+
+def one_each(opened: NDArray[np.bool_], rng: np.random.Generator) -> NDArray[np.bool_]:
+    """Return a door in a random cell of each opened wall."""
+    doors = np.zeros((len(_WALLS), 3), bool)
+    doors[np.arange(len(_WALLS)), rng.integers(3, size=len(_WALLS))] = opened
+    return doors
+
+
+def many_ways(rng: np.random.Generator) -> NDArray[np.bool_]:
+    """Seven walls of ten are open."""
+    return one_each(rng.random(len(_WALLS)) < 0.7, rng)
+
+
+def one_way(rng: np.random.Generator) -> NDArray[np.bool_]:
+    """The open walls make a random tree of all rooms: one way leads from each to each."""
+    joined = {room: {room} for wall in _WALLS for room in wall[:2]}
+    opened = np.zeros(len(_WALLS), bool)
+    for number in rng.permutation(len(_WALLS)):
+        first, second, _ = _WALLS[number]
+        if joined[first] is not joined[second]:
+            opened[number] = True
+            joined[first] |= joined[second]
+            for room in joined[second]:
+                joined[room] = joined[first]
+    return one_each(opened, rng)
+
+
+def several_doors(rng: np.random.Generator) -> NDArray[np.bool_]:
+    """Every cell of a wall is a door with probability 0.2, so walls have up to three."""
+    return rng.random((len(_WALLS), 3)) < 0.2
+
+
+def draw(doors: Doors, least: int, seed: int) -> Iterator[Maze]:
+    """Yield mazes whose shortest path from a random start to a random goal has at least so many steps, without end."""
+    rng = np.random.default_rng([seed, least])
+    while True:
+        lava = closed_rooms()
+        for is_open, (*_, cells) in zip(doors(rng), _WALLS, strict=True):
+            for cell, door in zip(cells, is_open, strict=True):
+                lava[cell] &= not door
+        start, goal = (_ROOM_CELLS[int(n)] for n in rng.choice(len(_ROOM_CELLS), 2, replace=False))
+        if distances_from(lava, goal)[start] >= least:
+            yield Maze(lava, start, goal)
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("run", nargs="?")
+    parser.add_argument("--store", type=Path, default=Path("waypost.db"))
+    parser.add_argument("--checkpoints", type=Path, help="beside the store if absent")
+    parser.add_argument("--save", type=Path, help="a folder to write the sets to, as .npz")
+    arguments = parser.parse_args()
+    if arguments.run is None:
+        parser.exit(0, "Give a run whose checkpoint is there; without one there is nothing to measure.\n")
+    folder = arguments.checkpoints or arguments.store.with_name(f"{arguments.store.name}.checkpoints")
+    path = folder / f"{arguments.run}.safetensors"
+    learner, _ = build_learner(checkpoints.read_header(path).config, threads=None)
+    checkpoints.load(path, learner)
+    kinds: dict[str, tuple[Doors, int]] = {
+        "many ways, any length": (many_ways, 1),
+        "many ways, at least 20 steps": (many_ways, 20),
+        "one way, at least 40 steps": (one_way, 40),
+        "one way, at least 45 steps": (one_way, 45),
+        "several doors in a wall": (several_doors, 20),
+    }
+    sets = {f"{name}, unseen": list(learner.domain.instances(name).test) for name in ("random", "corners")}
+    for number, (name, (doors, least)) in enumerate(kinds.items()):
+        drawn = draw(doors, least, number)
+        sets[name] = [next(drawn) for _ in range(N)]
+        if arguments.save is not None:
+            save_mazes(arguments.save / f"{name.replace(', ', '-').replace(' ', '-')}.npz", sets[name])
+    print("| mazes | shortest path, median (most) | success |")
+    print("|---|---|---|")
+    for name, mazes in sets.items():
+        lengths = [int(distances_from(maze.lava, maze.goal)[maze.start]) for maze in mazes]
+        found = evaluate(learner, mazes, len(mazes))
+        print(f"| {name} | {np.median(lengths):.0f} ({max(lengths)}) | {found.success_rate:.1%} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,126 @@
+"""What the maze tells a learner of its structure: where to look, which places there are, what else a label says.
+
+None of it is the paper's, and the `paper` preset uses none.
+"""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from learner.domains.base import Grid, Relabeled, View
+from learner.domains.maze.env import AGENT, LAVA, TARGET, TRAIL
+from learner.domains.maze.maze import GO_TO_TARGET, MOVES, ROOMS, SIZE, Cell, cell_of, room_beside, room_of
+from learner.types import Subgoal, Trajectory
+
+Picture = NDArray[np.float32]
+
+_ROOMS = Grid(patch=ROOMS + 1, stride=ROOMS, moves=(*MOVES, None))
+_CELLS = Grid(patch=3, stride=1, moves=MOVES)
+_ACROSS = ROOMS * (2 * ROOMS - 1) + 1  # pixels, with the agent's room in the middle of all that can be around it
+BACK = 1  # flips the number of a direction to that of its opposite
+_REACH = 5  # cells: a room, its walls and what is just behind them
+
+
+def _whole(observation: Picture) -> Picture:
+    """Return the maze around the agent's room, float32[3, 29, 29], without the trail; beyond the maze there is lava."""
+    row, column = _agent(observation)
+    top, left = (ROOMS * (ROOMS - 1 - min(place // ROOMS, ROOMS - 1)) for place in (row, column))
+    seen = _lava(_ACROSS)
+    seen[:, top : top + SIZE, left : left + SIZE] = np.where(observation == TRAIL, np.float32(0), observation)
+    return seen
+
+
+def _near(observation: Picture) -> Picture:
+    """Return the cells around the agent, float32[3, 11, 11], as far as they are of its room, or just behind its walls.
+
+    Of what is beyond a door in which the agent stands, the first cells are seen. What is farther is lava.
+    """
+    agent = _agent(observation)
+    rows, columns = (slice(*_extent(place)) for place in agent)
+    seen = _lava(SIZE + 2 * _REACH)
+    seen[:, _REACH:-_REACH, _REACH:-_REACH][:, rows, columns] = observation[:, rows, columns]
+    (top, left), side = agent, 2 * _REACH + 1
+    return np.ascontiguousarray(seen[:, top : top + side, left : left + side])
+
+
+def _all(observation: Picture) -> Picture:
+    """Return the maze around the agent, float32[3, 33, 33]; beyond it there is lava."""
+    row, column = _agent(observation)
+    seen = _lava(2 * SIZE - 1)
+    seen[:, SIZE - 1 - row : 2 * SIZE - 1 - row, SIZE - 1 - column : 2 * SIZE - 1 - column] = observation
+    return seen
+
+
+def _extent(place: int) -> tuple[int, int]:
+    """Return the first row (or column) seen from one, and the first that is not."""
+    if place % ROOMS == 0:
+        return place - 1, place + 2
+    wall = ROOMS * (place // ROOMS)
+    return max(wall - 1, 0), min(wall + ROOMS + 2, SIZE)
+
+
+HI_VIEW = View((3, _ACROSS, _ACROSS), _whole, _ROOMS)
+LO_VIEW = View((3, 2 * _REACH + 1, 2 * _REACH + 1), _near, _CELLS)
+FLAT_VIEW = View((3, 2 * SIZE - 1, 2 * SIZE - 1), _all)  # no grid: a hundred steps ahead take too long to plan
+
+
+def relabeled(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Iterator[Relabeled]:
+    """Yield what is right on the way from each place of a labeled way to each other one, there and back.
+
+    A part of a shortest way is a shortest way, and so is the way back.
+    """
+    for cells, subgoals in _ways(trajectory, good_subgoals):
+        lava = trajectory[0].start.observation[1] == LAVA
+        for i, here in enumerate(cells):
+            for j, target in enumerate(cells):
+                if j != i:
+                    yield _picture(lava, here, target), subgoals[i] if j > i else subgoals[i - 1] ^ BACK
+            for target in _others(lava, here):
+                yield _picture(lava, here, target), GO_TO_TARGET
+
+
+def _ways(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Iterator[tuple[list[Cell], list[Subgoal]]]:
+    """Yield the cells where good subgoals began that were carried out one after the other, with the last one's end."""
+    cells: list[Cell] = []
+    subgoals: list[Subgoal] = []
+    for segment, good in zip(trajectory, good_subgoals, strict=True):
+        here, there = cell_of(segment.start.view), cell_of(segment.states[-1].view)
+        if room_of(here) is None:  # chosen in a door, by mistake
+            continue
+        cells.append(here)
+        if segment.subgoal == good != GO_TO_TARGET and room_of(there) == room_beside(here, good):
+            subgoals.append(good)
+        else:
+            yield cells, subgoals
+            cells, subgoals = [], []
+    if cells:
+        yield [*cells, there], subgoals
+
+
+def _others(lava: NDArray[np.bool_], here: Cell) -> list[Cell]:
+    """Return the other free cells of a cell's room."""
+    top, left = (ROOMS * (place // ROOMS) for place in here)
+    room = [(top + row, left + column) for row in (1, 2, 3) for column in (1, 2, 3)]
+    return [cell for cell in room if cell != here and not lava[cell]]
+
+
+def _picture(lava: NDArray[np.bool_], agent: Cell, target: Cell) -> Picture:
+    """Return the observation of an episode that begins."""
+    picture = np.zeros((3, *lava.shape), np.float32)
+    picture[1][lava] = LAVA
+    picture[1][agent] = TRAIL
+    picture[0][agent] = AGENT
+    picture[2][target] = TARGET
+    return picture
+
+
+def _agent(observation: Picture) -> Cell:
+    row, column = np.unravel_index(int(observation[0].argmax()), observation[0].shape)
+    return int(row), int(column)
+
+
+def _lava(size: int) -> Picture:
+    picture = np.zeros((3, size, size), np.float32)
+    picture[1] = LAVA
+    return picture

@@ -1,0 +1,102 @@
+"""A learner: which policies it has, what each is given to see, and what it learns from."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+from hypothesis import given
+from hypothesis import strategies as st
+
+from learner.datasets import Labels
+from learner.domains.corridor import CorridorDomain
+from learner.domains.maze.domain import MazeDomain
+from learner.domains.maze.structure import LO_VIEW
+from learner.learner import Learner, Structure
+from learner.networks import ConvNet, DenseNet, PlanningNet
+from learner.policies import Policy, TrainSpec
+from learner.queries import LoLabels
+from learner.types import META, Segment
+from tests.learner.kit import TINY, TINY_LEAN, drawn_mazes, examples
+
+maze = MazeDomain()
+
+
+def learned(domain: Any = maze, **values: Any) -> Learner:
+    return Learner(domain, replace(TINY_LEAN, **values), seed=0, threads=1)
+
+
+def observations(instance: Any) -> np.ndarray:
+    """What is seen on a way through a maze."""
+    learner = Learner(maze, TINY, seed=0, threads=1)
+    sigma = learner.roll_out(learner.start(instance, 0))
+    return np.stack([state.observation for segment in sigma for state in segment.states])
+
+
+@examples
+@given(drawn_mazes(), st.integers(1, 3))
+def test_a_tied_policy_acts_as_the_other_does_in_the_turned_maze(instance: Any, subgoal: int) -> None:
+    learner = learned()
+    assert set(learner.imitators) == {META, 0, 4}
+    north = learner.imitators[0]
+    (symmetry, *_) = [one for one in maze.symmetries if one.subgoals[subgoal] == 0]
+    seen = observations(instance)
+    turned = north(np.stack([LO_VIEW.observe(symmetry.observe(one)) for one in seen]))
+    found = learner.policies[subgoal](seen)
+    np.testing.assert_array_equal(found.termination, turned.termination)
+    for action in range(4):
+        np.testing.assert_array_equal(found.logits[:, action], turned.logits[:, symmetry.actions[action]])
+
+
+def test_what_is_labeled_of_tied_policies_is_learned_by_the_one_they_are() -> None:
+    learner = learned()
+    state = learner.start(maze.instances("random").train[0], 0)
+    labels = Labels()
+    labels.append_lo(Segment(3, (state, state), (0,), terminated=False), LoLabels((1,), (False, False)))
+    learner.learn(labels)
+    assert {key: len(data) for key, data in learner.data.items()} == {META: 0, 0: 4, 4: 0}  # two rows, east mirrored
+
+
+def test_views_and_planning_are_for_domains_that_tell_of_their_structure() -> None:
+    assert all(isinstance(policy.network, PlanningNet) for policy in learned().imitators.values())
+    assert all(
+        isinstance(policy.network, ConvNet)
+        for policy in learned(planning=None).imitators.values()
+        if policy.choices == 5
+    )
+    assert all(isinstance(policy.network, ConvNet) for policy in learned(views=False).imitators.values())
+    corridor = learned(CorridorDomain())
+    assert all(isinstance(policy.network, DenseNet) for policy in corridor.imitators.values())
+    assert set(corridor.imitators) == {META, 0, 2}  # west and east are one
+
+
+@pytest.mark.parametrize("relabeling", [True, False])
+def test_a_preset_decides_whether_labels_are_learned_from_as_labels_of_other_tasks(relabeling: bool) -> None:
+    learner = learned(relabeling=relabeling, symmetries=False, tied=False)
+    sigma = learner.roll_out(learner.start(maze.instances("random").train[0], 0))
+    labels = Labels()
+    labels.append_hi(sigma, [segment.subgoal or 0 for segment in sigma])
+    learner.learn(labels)
+    assert (len(learner.data[META]) > len(sigma)) == relabeling
+
+
+def test_what_acts_is_the_average_of_what_was_learned() -> None:
+    spec = TrainSpec(learning_rate=1e-2, batch=8, least=80, most=80, averaging=0.9, bf16=False)
+    learner = Learner(CorridorDomain(), replace(TINY, train_hi=spec), seed=0, structure=Structure(), threads=1)
+    mu = learner.imitators[META]
+    assert isinstance(mu, Policy)
+    average: list[torch.Tensor] = []
+
+    def follow(*_: Any) -> None:
+        now = [parameter.detach().clone() for parameter in mu.network.parameters()]
+        average[:] = [0.9 * a + 0.1 * b for a, b in zip(average, now, strict=True)] if average else now
+
+    mu.optimizer.register_step_post_hook(follow)
+    labels = Labels()
+    sigma = learner.roll_out(learner.start(CorridorDomain().instances("random").train[0], 0))
+    labels.append_hi(sigma, [0 for _ in sigma])
+    learner.learn(labels)
+    for acting, expected, last in zip(mu.acting.parameters(), average, mu.network.parameters(), strict=True):
+        torch.testing.assert_close(acting, expected)
+        assert not torch.equal(acting, last)

@@ -1,0 +1,133 @@
+"""What the maze tells a learner of its structure is true of it."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from learner.domains.base import Grid, Symmetry, View
+from learner.domains.maze.domain import MazeDomain
+from learner.domains.maze.env import AGENT, TARGET, TRAIL, MazeEnv
+from learner.domains.maze.maze import ROOMS, Cell, Maze, moved, room_of
+from learner.domains.maze.structure import FLAT_VIEW, HI_VIEW, LO_VIEW, relabeled
+from learner.experts.oracle import OracleExpert
+from learner.learner import Learner
+from learner.simulator import Simulator
+from learner.translation import Translator
+from learner.types import Segment, Subgoal, Trajectory
+from tests.learner.kit import TINY, drawn_mazes, examples, free_cells, mazes
+
+domain = MazeDomain()
+views = st.sampled_from([HI_VIEW, LO_VIEW, FLAT_VIEW])
+
+
+def seen_from(maze: Maze, cell: Cell) -> np.ndarray:
+    observation, _ = MazeEnv().reset(options={"instance": Maze(maze.lava, cell, maze.goal)})
+    return observation
+
+
+def demonstration(maze: Maze) -> Trajectory:
+    start = Simulator(domain).reset(maze).view
+    answer = Translator(domain, maze).answer(OracleExpert(domain).demonstrate(domain.instance_view(maze), start))
+    assert isinstance(answer, tuple)
+    return tuple(segment for segment in answer if isinstance(segment, Segment))
+
+
+def is_good(picture: np.ndarray, subgoal: Subgoal) -> bool:
+    """Whether the oracle finds a subgoal good in what a picture shows."""
+    ((row, column),) = np.argwhere(picture[0] == AGENT)
+    ((goal_row, goal_column),) = np.argwhere(picture[2] == TARGET)
+    maze = Maze(picture[1] == 1, (int(row), int(column)), (int(goal_row), int(goal_column)))
+    return subgoal in domain.oracle.good_subgoals(maze.to_json(), [int(row), int(column)])
+
+
+@examples
+@given(mazes())
+def test_what_a_demonstration_says_of_other_tasks_is_right(maze: Maze) -> None:
+    sigma = demonstration(maze)
+    others = list(relabeled(sigma, [segment.subgoal for segment in sigma if segment.subgoal is not None]))
+    n_places = len({room_of(tuple(segment.start.view)) for segment in sigma})
+    assert len(others) >= n_places * (n_places - 1)
+    assert all(is_good(picture, subgoal) for picture, subgoal in others)
+
+
+@examples
+@given(drawn_mazes(), st.integers(0, 2**32))
+def test_what_labels_of_a_failed_episode_say_of_other_tasks_is_right(maze: Maze, seed: int) -> None:
+    learner = Learner(domain, TINY, seed, threads=1)
+    sigma = learner.roll_out(learner.start(maze, 0))
+    view = domain.instance_view(maze)
+    good = [domain.oracle.good_subgoals(view, segment.start.view) for segment in sigma]
+    labels = [segment.subgoal if segment.subgoal in ok else ok[0] for segment, ok in zip(sigma, good, strict=True)]
+    assert all(is_good(picture, subgoal) for picture, subgoal in relabeled(sigma, labels))
+
+
+def test_a_subgoal_that_was_missed_ends_the_way() -> None:
+    maze = domain.instances("random").train[0]
+    sigma = demonstration(maze)
+    stayed = Segment(sigma[1].subgoal, sigma[1].states[:1] * 2, (0,), terminated=True)
+    good = [segment.subgoal for segment in sigma[:2] if segment.subgoal is not None]
+    whole, cut = (list(relabeled((sigma[0], second), good)) for second in (sigma[1], stayed))
+    between = [len([one for _, one in found if one != domain.subgoals.index("go_to_target")]) for found in (whole, cut)]
+    assert between == [6, 2]  # three places, and two
+
+
+@examples
+@given(mazes(), st.data(), st.sampled_from(domain.symmetries), views)
+def test_a_turned_picture_is_seen_turned(maze: Maze, data: st.DataObject, symmetry: Symmetry, view: View) -> None:
+    cell = data.draw(st.sampled_from(free_cells(maze)))
+    assume(view is not HI_VIEW or room_of(cell) is not None)  # a door is of the room behind it: one of two
+    picture = seen_from(maze, cell)
+    assert (view.observe(symmetry.observe(picture)) == symmetry.observe(view.observe(picture))).all()
+
+
+@examples
+@given(mazes(), st.data(), views)
+def test_the_agents_place_is_in_the_middle_of_every_view(maze: Maze, data: st.DataObject, view: View) -> None:
+    cell = data.draw(st.sampled_from(free_cells(maze)))
+    seen = view.observe(seen_from(maze, cell))
+    assert seen.shape == view.shape
+    grid = view.grid or Grid(patch=1, stride=1, moves=())
+    ((row, column),) = np.argwhere(seen[0] == AGENT)
+    n_places = (view.shape[1] - grid.patch) // grid.stride + 1
+    first = n_places // 2 * grid.stride
+    assert first <= row < first + grid.patch
+    assert first <= column < first + grid.patch
+
+
+@examples
+@given(mazes(), st.data())
+def test_subgoals_are_chosen_by_the_whole_maze_without_the_trail(maze: Maze, data: st.DataObject) -> None:
+    seen = HI_VIEW.observe(seen_from(maze, data.draw(st.sampled_from(free_cells(maze)))))
+    assert not (seen == TRAIL).any()
+    assert (seen[1] == 0).sum() == (~maze.lava).sum()
+
+
+@examples
+@given(mazes(), st.data())
+def test_actions_are_chosen_by_the_cells_around_alone(maze: Maze, data: st.DataObject) -> None:
+    cell = data.draw(st.sampled_from([cell for cell in free_cells(maze) if room_of(cell) is not None]))
+    room = room_of(cell)
+    assert room is not None
+    far = np.ones_like(maze.lava)
+    rows, columns = (slice(max(ROOMS * place - 1, 0), ROOMS * place + ROOMS + 2) for place in room)
+    far[rows, columns] = False
+    filled = Maze(maze.lava | far, maze.start, cell)
+    near = Maze(maze.lava, maze.start, cell)
+    assert (LO_VIEW.observe(seen_from(near, cell)) == LO_VIEW.observe(seen_from(filled, cell))).all()
+
+
+@pytest.mark.parametrize(("cell", "place"), [((1, 1), (0, 0)), ((7, 13), (1, 3)), ((4, 2), (4, 2))])
+def test_the_place_of_a_state_is_its_room_or_its_door(cell: Cell, place: Cell) -> None:
+    assert domain.place(list(cell)) == place
+
+
+def test_moves_lead_where_subgoals_and_actions_do() -> None:
+    assert HI_VIEW.grid is not None
+    assert LO_VIEW.grid is not None
+    for direction, move in enumerate(LO_VIEW.grid.moves):
+        assert moved((5, 5), direction) == (5 + move[0], 5 + move[1]) if move else False
+    for direction, name in enumerate(("north", "south", "west", "east")):
+        assert domain.subgoals[direction] == name
+        assert HI_VIEW.grid.moves[direction] == LO_VIEW.grid.moves[direction]
+    assert HI_VIEW.grid.moves[domain.subgoals.index("go_to_target")] is None
