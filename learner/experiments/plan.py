@@ -17,6 +17,7 @@ class Series:
 
     config: TrainConfig  # of the first seed
     label: str
+    beside: bool = False  # drawn so that the others are held against it
 
     def runs(self, seeds: Sequence[int]) -> list[TrainConfig]:
         """Return a run per seed."""
@@ -35,6 +36,7 @@ class Group:
         series: its curves.
         labels_only: whether costs leave inspections out, as the authors' do; then the published ones are comparable.
         hybrid: whether acting is learned by reinforcement, so that success is held against LO samples, not cost.
+        lean: whether it is about the least cost: of hundreds of units, in hundreds of episodes.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Group:
     series: tuple[Series, ...]
     labels_only: bool = False
     hybrid: bool = False
+    lean: bool = False
 
 
 def _imitation(instances: str, redraw: bool, *algorithms: str) -> tuple[Series, ...]:
@@ -66,7 +69,7 @@ _AS_THE_AUTHORS = "Episodes: demonstrations, then one per failed rollout; costs:
 _HONEST = "Episodes: every rollout. Costs: every label and every inspection."
 _SUCCESS = ("success-by-episode", "success-by-cost", "success-by-lo-cost")
 
-_GROUPS = (
+_MAZE = (
     Group(
         "published",
         "corner mazes, counted as the authors count",
@@ -112,11 +115,71 @@ _GROUPS = (
     ),
 )
 
-GROUPS = {group.name: group for group in _GROUPS}
+_FEWER = "relabeling=false repeat_penalty=0"
+
+
+def _lean(label: str, algorithm: str = "hg-dagger", instances: str = "random", values: str | None = None) -> Series:
+    return Series(TrainConfig(algorithm, instances=instances, preset="lean", episodes=300, values=values), label)
+
+
+_LEAN = (
+    Group(
+        "lean-random",
+        "random mazes, the preset lean beside the paper's",
+        _HONEST,
+        ("success-by-log-cost", "success-by-episode", "cost-by-kind"),
+        (
+            _lean("hg-DAgger"),
+            _lean("hg-DAgger, no relabeling, repeats", values=_FEWER),
+            _lean("naive h-DAgger", "naive-h-dagger"),
+            _lean("h-BC", "h-bc"),
+            _lean("flat DAgger", "flat-dagger"),
+            _lean("flat BC", "flat-bc"),
+            Series(TrainConfig("hg-dagger"), "hg-DAgger, paper", beside=True),
+        ),
+        lean=True,
+    ),
+    Group(
+        "lean-corners",
+        "corner mazes, the preset lean beside the paper's",
+        _HONEST,
+        ("success-by-log-cost",),
+        (
+            _lean("hg-DAgger", instances="corners"),
+            _lean("hg-DAgger, no relabeling, repeats", instances="corners", values=_FEWER),
+            Series(TrainConfig("hg-dagger", instances="corners"), "hg-DAgger, paper", beside=True),
+        ),
+        lean=True,
+    ),
+    Group(
+        "lean-parts",
+        "random mazes, hg-DAgger with each part of lean removed alone",
+        _HONEST,
+        (),
+        (
+            _lean("all of lean"),
+            _lean("without relabeling", values="relabeling=false"),
+            _lean("without the repeat penalty", values="repeat_penalty=0"),
+            _lean("without symmetries, untied", values="symmetries=false tied=false"),
+            _lean("untied", values="tied=false"),
+            _lean("without planning", values="planning=null"),
+            _lean("without views and planning", values="views=false"),
+            _lean("without averaging", values="train_hi.averaging=null train_lo.averaging=null"),
+            _lean("20 demonstrations", values="warm_start=20"),
+        ),
+        lean=True,
+    ),
+)
+
+GROUPS = {group.name: group for group in (*_MAZE, *_LEAN)}
 """What can be run and drawn on its own."""
 
-FIGURES = {"maze": tuple(GROUPS), **{name: (name,) for name in GROUPS}}
-"""What `--figure` can name: the maze section of the paper, or one of its groups."""
+FIGURES = {
+    "maze": tuple(group.name for group in _MAZE),
+    "lean": tuple(group.name for group in _LEAN),
+    **{name: (name,) for name in GROUPS},
+}
+"""What `--figure` can name: the maze section of the paper, the least expert cost, or one group of them."""
 
 
 def find_figure(name: str) -> list[Group]:

@@ -171,7 +171,7 @@ def test_a_sweep_can_write_to_a_server(tmp_path: Path, token: tuple[str, str]) -
 def test_the_command_refuses_a_figure_that_does_not_exist(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["sweep", "--figure", "mazes", "--store", str(tmp_path / "a.db")])
     assert done.exit_code == 2
-    assert "those that exist are: maze, published" in done.output
+    assert "those that exist are: maze, lean, published" in done.output
     assert list(tmp_path.iterdir()) == []
 
 

@@ -33,6 +33,15 @@ def success_by_cost(comparison: Comparison) -> Figure:
     return _success(comparison, "Success against expert cost", x, lambda run: run.cost(labels_only), _points_by_cost)
 
 
+def success_by_log_cost(comparison: Comparison) -> Figure:
+    """Draw the success rate against all that was spent on the expert, from hundreds of units to ten thousands."""
+    figure, (axes,) = frame(comparison, "Success against expert cost")
+    _success_curves(axes, comparison, lambda run: run.cost(comparison.group.labels_only), _no_points)
+    look.log_axis(axes.xaxis, "Expert cost, units (logarithmic)")
+    _close(figure, comparison, _LINES)
+    return figure
+
+
 def success_by_lo_cost(comparison: Comparison) -> Figure:
     """Draw the success rate against what was spent on LO-level labels."""
     x = "LO-level expert cost, units (actions and terminations, those of demonstrations too)"
@@ -106,6 +115,7 @@ def success_by_sample(comparison: Comparison) -> Figure:
 FIGURES: dict[str, Callable[[Comparison], Figure]] = {
     "success-by-episode": success_by_episode,
     "success-by-cost": success_by_cost,
+    "success-by-log-cost": success_by_log_cost,
     "success-by-lo-cost": success_by_lo_cost,
     "cost-by-kind": cost_by_kind,
     "lo-cost-by-episode": lo_cost_by_episode,

@@ -55,6 +55,8 @@ _ALGORITHMS = {
     "flat-dqn": Style(_PURPLE, _DOTTED, "D"),
 }
 _WITH_HEAD_START = Style(_GREEN, _DASH_DOT, "^")
+_WITH_OTHER_VALUES = Style(_SKY, _LONG, "P")
+_BESIDE = Style(_BLACK, _DASHED, "o")
 
 KINDS: dict[Kind, tuple[str, Style]] = {
     "hier_demo": ("HierDemo", Style(_PURPLE, _DOTTED, "D")),
@@ -69,6 +71,10 @@ SUM = Style(_BLACK, "solid", "o")
 
 def style_of(series: Series) -> Style:
     """Return how a series is drawn, the same in every figure."""
+    if series.beside:
+        return _BESIDE
+    if series.config.values is not None:
+        return _WITH_OTHER_VALUES
     return _WITH_HEAD_START if series.config.head_start is not None else _ALGORITHMS[series.config.algorithm]
 
 
@@ -147,3 +153,10 @@ def count_axis(axis: Any, what: str) -> None:
     """Let an axis count something, from 0."""
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
     axis.set_label_text(what)
+
+
+def log_axis(axis: Any, what: str) -> None:
+    """Let the x axis count something from 100 on, ten times as much at equal distances."""
+    axis.axes.set_xscale("log")
+    axis.axes.set_xlim(left=100)
+    count_axis(axis, what)

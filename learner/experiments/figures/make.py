@@ -73,6 +73,8 @@ def describe(config: TrainConfig, found: Found) -> str:
             config.instances,
             *(["redraw"] if config.redraw else []),
             *([] if config.head_start is None else [f"head start {config.head_start:.0%}"]),
+            *([] if config.preset == "paper" else [config.preset]),
+            *([] if config.values is None else [config.values]),
             f"seed {config.seed}",
             "not begun" if run is None else f"{len(run.episode)} of {config.episodes} episodes",
         ]

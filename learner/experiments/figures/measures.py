@@ -10,7 +10,7 @@ from learner.experiments.figures.data import Column, Comparison, RunCurves
 from learner.experiments.figures.published import EPISODES, LEVELS, NEVER, Published, published
 from learner.experiments.figures.statistics import Spread, Track, first_at, spread
 
-Unit = Literal["%", "units", "hours", "samples", "labels", "labels per 1,000 samples", ""]
+Unit = Literal["%", "units", "hours", "minutes", "samples", "labels", "labels per 1,000 samples", ""]
 
 LATE = 500  # episodes: LO labels are needed early, so the cost after these is looked at
 UNKNOWN = float("nan")  # an unfinished run may still get there
@@ -58,6 +58,8 @@ def results(comparison: Comparison, topic: Topic) -> Iterator[Result]:
 
 def topics(comparison: Comparison) -> tuple[Topic, ...]:
     """Return what is compared in a group."""
+    if comparison.group.lean:
+        return _LEAN
     return _HYBRID if comparison.group.hybrid else _IMITATION
 
 
@@ -152,6 +154,18 @@ _IMITATION = (
             Measure("LO cost without demonstrations", "units", lambda run, _: at_end(run, run.lo_label_cost)),
             Measure("share of that after episode 500", "%", lambda run, _: late_share(run, run.lo_label_cost)),
             _HOURS,
+        ),
+    ),
+)
+
+_LEAN = (
+    Topic(
+        "Success and cost",
+        (
+            *(_success(episodes) for episodes in (100, 200, 300)),
+            *(_cost_at(level) for level in (0.8, 0.95, 0.99)),
+            Measure("expert cost in all", "units", lambda run, labels: at_end(run, run.cost(labels))),
+            Measure("learner's minutes", "minutes", lambda run, _: at_end(run, run.learner_seconds) / 60),
         ),
     ),
 )

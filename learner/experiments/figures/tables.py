@@ -83,7 +83,11 @@ def _bare(value: float, unit: Unit) -> str:
     if value == NEVER:
         return "never"
     whole = abs(value - round(value)) < 0.05
-    digits = {"%": 0 if whole else 1, "hours": 1, "": 2 if value < 100 else 0, "labels per 1,000 samples": 1}.get(
-        unit, 0
-    )
+    digits = {
+        "%": 0 if whole else 1,
+        "hours": 1,
+        "minutes": 1,
+        "": 2 if value < 100 else 0,
+        "labels per 1,000 samples": 1,
+    }.get(unit, 0)
     return f"{value:,.{digits}f}"
