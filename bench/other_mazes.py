@@ -1,6 +1,7 @@
 """How a run's policy does on mazes of kinds it was never trained on: `python bench/other_mazes.py RUN --store FILE`.
 
-The unseen mazes of both sets, and three hundred of each other kind, drawn from one seed. Prints a table; asserts nothing.
+The unseen mazes of both sets, and three hundred of each other kind, drawn from one seed. Prints a table; asserts
+nothing.
 """
 
 import argparse
