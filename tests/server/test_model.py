@@ -48,13 +48,15 @@ class Model(RuleBasedStateMachine):
     service: Service
     seen: Counter[str]
 
-    @initialize()
-    def start(self) -> None:
+    @initialize(kinds=st.lists(st.sampled_from(sorted(PRICE)), min_size=3, max_size=5))
+    def start(self, kinds: list[str]) -> None:
         self.people = [self.service.annotator, self.service.admin]
         self.run = self.service.learner.create_run(budget=BUDGET)
         self.queries: list[ModelQuery] = []
         self.state = "running"
         self.pages = [f"page-{next(_numbers)}" for _ in self.people]
+        for kind in kinds:
+            self.ask(kind)
 
     def those(self, *states: str) -> list[ModelQuery]:
         return [one for one in self.queries if one.state in states]
@@ -170,11 +172,27 @@ class Model(RuleBasedStateMachine):
         self.pages[who] = f"page-{next(_numbers)}"
         self.seen["left holding some"] += len(held) > len(kept)
 
+    @rule(who=st.integers(0, 1))
+    def lease_and_leave(self, who: int) -> None:
+        self.lease(who, None)
+        self.leave(who, keep=False)
+
+    @rule(who=st.integers(0, 1), used=st.booleans())
+    def lease_answer_and_retract(self, who: int, used: bool) -> None:
+        self.lease_and_answer(who)
+        for one in self.those("answered")[-1:]:
+            self._retract(one, used)
+
     @precondition(lambda self: self.those("answered"))
-    @rule(data=st.data())
-    def retract(self, data: st.DataObject) -> None:
-        one = data.draw(st.sampled_from(self.those("answered")))
+    @rule(data=st.data(), used=st.booleans())
+    def retract(self, data: st.DataObject, used: bool) -> None:
+        self._retract(data.draw(st.sampled_from(self.those("answered"))), used)
+
+    def _retract(self, one: ModelQuery, used: bool) -> None:
         assert one.assignment is not None
+        if used:
+            self.service.learner.post(f"/queries/{one.id}/use")
+            one.used = True
         fits = self.spent + self.reserved + RESERVE[one.kind] - PRICE[one.kind] <= BUDGET
         refused = 409 if one.used or self.state == "finished" else 200 if fits else 402
         again = self.people[one.holder].retract(one.assignment, expect=refused, tab=self.pages[one.holder])
@@ -214,7 +232,7 @@ def test_the_server_does_what_the_model_does(database_url: str) -> None:
         run_state_machine_as_test(
             machine,
             settings=settings(
-                max_examples=10,
+                max_examples=20,
                 stateful_step_count=35,
                 deadline=None,
                 derandomize=True,
