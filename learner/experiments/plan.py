@@ -130,7 +130,7 @@ _LEAN = (
         ("success-by-log-cost", "success-by-episode", "cost-by-kind"),
         (
             _lean("hg-DAgger"),
-            _lean("hg-DAgger, no relabeling, repeats", values=_FEWER),
+            _lean("hg-DAgger, nothing more assumed", values=_FEWER),
             _lean("naive h-DAgger", "naive-h-dagger"),
             _lean("h-BC", "h-bc"),
             _lean("flat DAgger", "flat-dagger"),
@@ -146,7 +146,7 @@ _LEAN = (
         ("success-by-log-cost",),
         (
             _lean("hg-DAgger", instances="corners"),
-            _lean("hg-DAgger, no relabeling, repeats", instances="corners", values=_FEWER),
+            _lean("hg-DAgger, nothing more assumed", instances="corners", values=_FEWER),
             Series(TrainConfig("hg-dagger", instances="corners"), "hg-DAgger, paper", beside=True),
         ),
         lean=True,

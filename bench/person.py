@@ -1,0 +1,102 @@
+"""What a run's answers are to a person: keys, decisions and minutes until a success rate was reached.
+
+`python bench/person.py RUN --store FILE`. Counted from the store, query by query: the fewest keys that give each
+answer in the page (docs/annotator.md), and how many things had to be decided for it. Minutes are decisions at the
+stated seconds each, besides the watching. Prints a table; asserts nothing.
+"""
+
+import argparse
+from collections import Counter, defaultdict
+from pathlib import Path
+
+from learner.client import Client
+from learner.training import embedded
+from server import wire
+
+WATCHING = 3.0  # seconds to see what a question is about, an episode played at the page's own pace
+SECONDS: dict[wire.Kind, float] = {  # of one decision
+    "hier_demo": 0.6,
+    "inspect_full": 0.5,
+    "inspect_lo": 0.5,
+    "label_hi": 1.5,
+    "label_lo": 1.0,
+    "label_full": 1.0,
+}
+
+
+def effort(query: wire.Query) -> tuple[int, int]:
+    """Return the keys and the decisions of an answer."""
+    answer = query.answer
+    segments = [] if query.ask.kind == "hier_demo" else query.ask.segments
+    match answer:
+        case wire.InspectAnswer():
+            return 1, 1
+        case wire.LabelHiAnswer():
+            own = [segment.subgoal for segment in segments]
+            return _last_change(own, answer.subgoals) + 1, len(own)
+        case wire.LabelLoAnswer():
+            n = answer.terminations.index(True) + 1 if True in answer.terminations else len(answer.actions)
+            ends_early = True in answer.terminations[:-1]
+            return (n if ends_early else _last_change(segments[0].actions, answer.actions)) + 1, n
+        case wire.LabelFullAnswer():
+            own = [action for segment in segments for action in segment.actions]
+            return _last_change(own, answer.actions) + 1, len(own)
+        case wire.HierDemoAnswer():
+            n = sum(len(segment.actions) for segment in answer.segments)
+            return n + 2 * len(answer.segments) + 1, n + 2 * len(answer.segments)
+    raise ValueError(f"query {query.id} has no answer")
+
+
+def _last_change(own: list[str] | list[str | None], labels: list[str] | list[str | None]) -> int:
+    """Return how many labels are given one by one before all the learner's other choices are kept."""
+    changed = [place for place, (before, after) in enumerate(zip(own, labels, strict=True), 1) if before != after]
+    return max(changed, default=0)
+
+
+def answered(client: Client, run: str) -> list[wire.Query]:
+    """Return the answered queries of a run, in the order of the answers."""
+    queries: list[wire.Query] = []
+    cursor = 0
+    while page := client.answers(run, cursor):
+        if not page.queries:
+            break
+        queries, cursor = queries + page.queries, page.cursor
+    return queries
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("run", nargs="?")
+    parser.add_argument("--store", type=Path, default=Path("waypost.db"))
+    parser.add_argument("--success", default="0.95", help="0.8, 0.9, 0.95 or 0.99")
+    arguments = parser.parse_args()
+    if arguments.run is None:
+        parser.exit(0, "Give a run that is in the store; without one there is nothing to count.\n")
+    with embedded(arguments.store) as connection:
+        milestone = connection.learner.costs(arguments.run).first_at[arguments.success]
+        if milestone is None:
+            parser.exit(1, f"The run never reached {arguments.success}.\n")
+        queries = [one for one in answered(connection.learner, arguments.run) if one.ask.episode <= milestone.episode]
+    keys, decisions = Counter[str](), Counter[str]()
+    minutes: defaultdict[str, float] = defaultdict(float)
+    for query in queries:
+        n_keys, n_decisions = effort(query)
+        keys[query.ask.kind] += n_keys
+        decisions[query.ask.kind] += n_decisions
+        watching = 0 if query.ask.kind == "hier_demo" else WATCHING
+        minutes[query.ask.kind] += (watching + n_decisions * SECONDS[query.ask.kind]) / 60
+    asked = Counter(query.ask.kind for query in queries)
+    print(
+        f"Until success was {float(arguments.success):.0%}: episode {milestone.episode}, {milestone.cost:,.0f} units.\n"
+    )
+    print("| question | asked | keys | decisions | minutes |")
+    print("|---|---|---|---|---|")
+    for kind in asked:
+        print(f"| {kind} | {asked[kind]} | {keys[kind]} | {decisions[kind]} | {minutes[kind]:.1f} |")
+    sums = (asked.total(), keys.total(), decisions.total())
+    print(f"| all | {' | '.join(map(str, sums))} | {sum(minutes.values()):.1f} |")
+
+
+if __name__ == "__main__":
+    main()
