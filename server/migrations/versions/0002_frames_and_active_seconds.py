@@ -35,9 +35,10 @@ def upgrade() -> None:
 
 def _fill(table: str) -> None:
     """Both tables are append-only, held by a trigger that rests here."""
-    fill = (  # the names and the number are ours
-        f"UPDATE {table} SET active_seconds = CASE WHEN seconds > {IDLE_SECONDS} THEN {IDLE_SECONDS} "  # noqa: S608
-        f"WHEN seconds < -{IDLE_SECONDS} THEN -{IDLE_SECONDS} ELSE seconds END"
+    most = IDLE_SECONDS
+    fill = (
+        f"UPDATE {table} SET active_seconds = CASE WHEN seconds > {most} THEN {most} "  # noqa: S608 (our names and number)
+        f"WHEN seconds < -{most} THEN -{most} ELSE seconds END"
     )
     if op.get_bind().dialect.name == "postgresql":
         op.execute(f"ALTER TABLE {table} DISABLE TRIGGER {table}_append_only")
