@@ -1,13 +1,18 @@
 """Presets: every value that fixes how a run learns, in one readable file each."""
 
 import json
-from dataclasses import fields, is_dataclass, replace
-from typing import Any
+from dataclasses import is_dataclass, replace
+from typing import Any, get_type_hints
+
+from pydantic import TypeAdapter, ValidationError
 
 from learner.presets.base import Preset
 from learner.presets.demo import DEMO
 from learner.presets.lean import LEAN
 from learner.presets.paper import PAPER
+
+Changes = dict[str, "str | Changes"]
+"""Values by name, as JSON, and groups of them."""
 
 PRESETS = {"demo": DEMO, "lean": LEAN, "paper": PAPER}
 
@@ -20,43 +25,38 @@ def find_preset(name: str, values: str | None = None) -> Preset:
     """
     if name not in PRESETS:
         raise ValueError(f"there is no preset {name!r}; those that exist are: {', '.join(sorted(PRESETS))}")
-    changes: dict[str, Any] = {}
+    changes: Changes = {}
     for assignment in (values or "").split():
         path, _, text = assignment.partition("=")
         *groups, last = path.split(".")
-        into: dict[str, Any] = changes
+        into = changes
         for group in groups:
-            into = into.setdefault(group, _Group())
-            if not isinstance(into, _Group):
+            below = into.setdefault(group, {})
+            if isinstance(below, str):
                 raise ValueError(f"{group!r} is given twice, as a value and as a group of values")
-        into[last] = _value(assignment, text)
+            into = below
+        into[last] = text
     preset: Preset = _changed(PRESETS[name], changes)
     return preset
 
 
-class _Group(dict[str, Any]):
-    """Changes to a group of values."""
-
-
-def _changed(spec: Any, changes: dict[str, Any]) -> Any:
+def _changed(spec: Any, changes: Changes) -> Any:
     """Return a specification with these values replaced, all at once."""
-    known = [field.name for field in fields(spec)]
+    types = get_type_hints(type(spec))
+    new: dict[str, Any] = {}
     for name, value in changes.items():
-        if name not in known:
-            raise ValueError(f"there is no value {name!r}; those that exist are: {', '.join(known)}")
+        if name not in types:
+            raise ValueError(f"there is no value {name!r}; those that exist are: {', '.join(types)}")
         before = getattr(spec, name)
-        if is_dataclass(before) != isinstance(value, _Group):
+        if is_dataclass(before) != isinstance(value, dict):
             raise ValueError(f"{name!r} is {'a group of values' if is_dataclass(before) else 'no group of values'}")
-        if isinstance(value, _Group):
-            changes[name] = _changed(before, value)
-        elif before is not None and value is not None and not isinstance(value, int | float | type(before)):
-            raise ValueError(f"{name!r} is {before!r} in the preset; {value!r} cannot stand in its place")
-    return replace(spec, **changes)
+        new[name] = _changed(before, value) if isinstance(value, dict) else _read(name, types[name], before, value)
+    return replace(spec, **new)
 
 
-def _value(assignment: str, text: str) -> Any:
+def _read(name: str, of: Any, before: Any, text: str) -> Any:
     try:
-        value = json.loads(text)
-    except json.JSONDecodeError:
-        raise ValueError(f"{assignment!r} gives no value: write NAME=VALUE, as in relabeling=false") from None
-    return tuple(value) if isinstance(value, list) else value
+        return TypeAdapter(of).validate_json(text, strict=True)
+    except ValidationError:
+        example = f"write {name}=VALUE, a JSON value as {json.dumps(before)} is"
+        raise ValueError(f"{text!r} is no value for {name!r}: {example}") from None
