@@ -3,16 +3,14 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
 import torch
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from torch import nn
 
 from learner.datasets import Dataset, Row
 from learner.domains.base import Grid
-from learner.networks import NetworkSpec, PlanningNet, PlanningSpec, build_network
+from learner.networks import PlanningNet, PlanningSpec, build_network
 from learner.policies import Policy, TrainSpec
 from tests.learner.kit import STEPS, examples
 
@@ -129,9 +127,3 @@ def test_it_learns_where_to_go_from_choices_alone() -> None:
     policy.train(data)
     right = policy(np.stack([row.observation for row in unseen])).logits.argmax(1) == [row.choice for row in unseen]
     assert right.mean() > 0.7  # of several shortest ways one is labeled; a guess would be right in a quarter
-
-
-@pytest.mark.parametrize("shape", [(4,), (3, 9, 9)])
-def test_other_networks_are_as_they_were(shape: tuple[int, ...]) -> None:
-    network = build_network(shape, 2, NetworkSpec((4,), 8), 0.0, torch.Generator().manual_seed(0))
-    assert isinstance(network, nn.Sequential)
