@@ -25,7 +25,8 @@ class Progress:
     """Where a run stands, between two episodes."""
 
     episodes: int = 0  # applied
-    draws: int = 0  # training instances drawn; more than episodes where they are drawn until one fails
+    draws: int = 0  # training instances drawn; more than episodes where they are looked for
+    passes: int = 0  # inspections of whole episodes passed in a row
 
 
 START = Progress()

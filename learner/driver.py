@@ -2,7 +2,8 @@
 
 The driver resolves an algorithm's queries through the queue. It may keep several episodes open (`in_flight`); their
 results are applied in episode order, and episode t + K starts right after episode t was applied, so a run is a
-function of its configuration and the answers, never of who was fast. Queries are keyed by (episode, ordinal): a
+function of its configuration and the answers, never of who was fast. That holds too where policies train on while the
+expert is at the next question: by a fixed amount, and before they act again. Queries are keyed by (episode, ordinal): a
 learner that starts again asks the same ones and pays for nothing twice.
 """
 
@@ -15,7 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from learner.algorithms import Algorithm
+from learner.algorithms import Algorithm, Episode
+from learner.algorithms.unasked import unasked
+from learner.asking import doubt
 from learner.camera import Camera
 from learner.client import Client, Refused
 from learner.config import START, Progress, TrainConfig
@@ -24,14 +27,14 @@ from learner.domains.base import InstanceSets
 from learner.evaluation import attempt
 from learner.learner import TEST, TRAIN, Learner
 from learner.queries import HierDemo, Query
-from learner.rollout import run
+from learner.rollout import run, run_all
 from learner.translation import Translator
 from learner.types import FLAT, META
 from server import wire
 
 POLL_SECONDS = 30.0
 CHECKPOINT_EVERY = 25  # episodes
-_TRAIN_ORDER, _TEST_ORDER, _VARIATION = 2, 3, 4  # streams of randomness, beside those of the rollouts
+_TRAIN_ORDER, _TEST_ORDER, _VARIATION, _MONITORING = 2, 3, 4, 5  # streams of randomness, beside the rollouts'
 _LARGEST_BATCH = 64  # rollouts in step, when looking for one that fails
 _MOST_DRAWS = 250  # without a failure, the learner has nothing left to ask about for now
 
@@ -50,6 +53,7 @@ class OpenEpisode:
     generator: Generator[Query, Any, Labels]
     steps: int = 0  # of the learner's rollout; none in a demonstration
     success: bool | None = None
+    passed: bool | None = None  # what Inspect_FULL said of it, if it was asked
     ordinal: int = 0
     pending: int | None = None  # the query it waits for
     units: float = 0  # what its answers cost
@@ -113,13 +117,14 @@ class Driver:
         self._open: deque[OpenEpisode] = deque()
         self._next = self._applied = first.episodes
         self._draws = first.draws
+        self._passes = first.passes
         self._cursor = 0
         self._clock = time.monotonic()
 
     @property
     def progress(self) -> Progress:
         """Where the run stands."""
-        return Progress(self._applied, self._draws)
+        return Progress(self._applied, self._draws, self._passes)
 
     def train(self) -> None:
         """Run to the last episode.
@@ -133,10 +138,12 @@ class Driver:
                 while self._may_start():
                     self._start_episode(self._next)
                     self._next += 1
+                self._learner.train_on()
                 if self._open[0].labels is not None:
                     self._apply(self._open.popleft())
                 else:
                     self._wait()
+            self._learner.train_on()
         finally:
             for episode in self._open:
                 episode.withdraw()
@@ -154,11 +161,11 @@ class Driver:
     def _start_episode(self, number: int) -> None:
         """Get a new environment instance and go to the first query."""
         warm_start = self._algorithm.warm_start if number < self._learner.preset.warm_start else None
-        draw = self._draws if warm_start or not self._config.redraw else self._failing_draw()
-        self._draws = draw + 1
+        draw = self._draws if warm_start else self._draw()
+        self._draws = max(self._draws, draw + 1)
         instance = self._train_instance(draw)
         s = self._learner.start(instance, draw)
-        generator = (warm_start or self._algorithm.episode)(s, self._learner)
+        generator = (warm_start or self._episode(number))(s, self._learner)
         camera = Camera(self._learner.domain, instance) if self._pictures else None
         episode = OpenEpisode(number, Translator(self._learner.domain, instance, camera), generator)
         self._open.append(episode)
@@ -172,6 +179,33 @@ class Driver:
         if self._instances.vary is None:
             return instance
         return self._instances.vary(instance, np.random.default_rng([self._config.seed, _VARIATION, draw]))
+
+    def _episode(self, number: int) -> Episode:
+        """Return what the episode is: the algorithm's, or one that asks nothing, where success is known."""
+        monitoring = self._learner.preset.monitoring
+        chance = np.random.default_rng([self._config.seed, _MONITORING, number])
+        skipped = self._algorithm.interactive and not monitoring.inspects(self._passes, chance)
+        return unasked if skipped else self._algorithm.episode
+
+    def _draw(self) -> int:
+        """Return the draw to roll out on: the next one, or one that was looked for."""
+        if self._config.redraw:
+            return self._failing_draw()
+        if self._algorithm.interactive and self._learner.preset.rollouts > 1:
+            return self._doubtful_draw()
+        return self._draws
+
+    def _doubtful_draw(self) -> int:
+        """Return, of the next draws, that on whose instance mu doubts most; none of the others is used again."""
+        draws = range(self._draws, self._draws + self._learner.preset.rollouts)
+        self._draws = draws.stop
+        simulators = [self._learner.make_simulator() for _ in draws]
+        rollouts = [
+            self._learner.rollout(simulator, self._train_instance(draw), TRAIN, draw)
+            for simulator, draw in zip(simulators, draws, strict=True)
+        ]
+        doubts = [doubt(self._learner.policies, sigma) for sigma in run_all(rollouts, self._learner.policies)]
+        return draws[int(np.argmax(doubts))]
 
     def _failing_draw(self) -> int:
         """Return the next draw on whose instance the present policies fail; just the next one if they hardly do.
@@ -220,6 +254,8 @@ class Driver:
         episode.withdraw()
         episode.pending, episode.withdraw = None, lambda: None
         episode.units += used.units or 0
+        if used.answer.kind == "inspect_full":
+            episode.passed = used.answer.verdict == "pass"
         return episode.resume(partial(episode.generator.send, episode.translator.answer(used.answer)))
 
     def _wait(self) -> None:
@@ -238,6 +274,8 @@ class Driver:
         """Learn from an episode, test on an unseen instance, report."""
         assert episode.labels is not None
         self._learner.learn(episode.labels)
+        if episode.passed is not None:
+            self._passes = self._passes + 1 if episode.passed else 0
         instance = _pick(self._instances.test, self._config.seed, _TEST_ORDER, episode.number)
         run(self._learner.rollout(self._test_simulator, instance, TEST, episode.number), self._learner.policies)
         now = time.monotonic()
@@ -257,6 +295,7 @@ class Driver:
         self._client.report(self._run_id, [result])
         self._applied += 1
         if self._applied % self._checkpoint_every == 0:
+            self._learner.train_on()
             self._checkpoint(self.progress)
         self._on_episode(result, episode.units)
 

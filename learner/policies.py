@@ -29,6 +29,7 @@ class TrainSpec:
     passes: int = 1  # over the buffer in a round,
     least: int = 1024  # but so many rows at least: a small buffer is passed over more often,
     most: int = 6144  # and so many at most
+    idle: int = 0  # rows more, after the expert has been put the next question
     dropout: float = 0.5
     weight_decay: float = 0.0
     averaging: float | None = None  # what acts is the average of the weights after each update, decaying at this rate
@@ -84,10 +85,16 @@ class Policy:
 
     def train(self, data: Dataset) -> None:
         """Train(policy, D): a few passes over the data, each in a random order of its own."""
-        if not len(data):
+        self._go_through(data, min(max(self.spec.passes * len(data), self.spec.least), self.spec.most))
+
+    def train_on(self, data: Dataset) -> None:
+        """Train on in the same way, while the expert is at the next question."""
+        self._go_through(data, self.spec.idle)
+
+    def _go_through(self, data: Dataset, n_rows: int) -> None:
+        if not len(data) or not n_rows:
             return
         spec = self.spec
-        n_rows = min(max(spec.passes * len(data), spec.least), spec.most)
         passes = math.ceil(n_rows / len(data))
         order = torch.cat([torch.randperm(len(data), generator=self.rng) for _ in range(passes)])[:n_rows]
         self.network.train()
