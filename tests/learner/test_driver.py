@@ -19,6 +19,7 @@ from learner.domains.maze.domain import MazeDomain
 from learner.domains.maze.maze import Maze
 from learner.experts.head_start import head_start
 from learner.experts.oracle import OracleExpert
+from learner.policies import Policy
 from learner.simulator import Simulator
 from learner.training import Connection, train
 from learner.translation import vocabulary
@@ -81,6 +82,38 @@ def test_with_three_episodes_in_flight_the_run_is_the_same_whatever_order_the_an
     found, most_open = out_of_order(tmp_path, corridor(in_flight=3), seed)
     assert found == three_in_flight
     assert most_open == 3
+
+
+@pytest.mark.parametrize("in_flight", [1, 3])
+def test_training_on_and_asking_less_depend_on_nobodys_pace(tmp_path: Path, in_flight: int) -> None:
+    train_on = " ".join(f"train_{level}.idle=32" for level in ("hi", "lo"))
+    sampled = "monitoring.share=0.5 monitoring.rate=0.5 monitoring.confidence=0.5"
+    config = corridor(in_flight=in_flight, values=f"{train_on} {sampled} rollouts=2")
+    assert out_of_order(tmp_path / "other", config, seed=1)[0] == at_once(tmp_path / "one", config)
+
+
+def test_the_next_question_is_put_before_policies_train_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    events: list[str] = []
+
+    class Noted(OutOfOrder):
+        def ask(self, run: str, queries: Sequence[wire.Ask]) -> list[wire.Query]:
+            events.append("asks" if queries[0].ordinal == 0 else "goes on")
+            return self._client.ask(run, queries)
+
+        def report(self, run: str, results: Sequence[wire.EpisodeResult]) -> None:
+            events.append("learned")
+            self._client.report(run, results)
+
+    trained_on = Policy.train_on
+    monkeypatch.setattr(Policy, "train_on", lambda policy, rows: (events.append("on"), trained_on(policy, rows)))
+    config = corridor(values="train_hi.idle=32 train_lo.idle=32", episodes=8)
+    with store(tmp_path) as (connection, options):
+        between: Any = Noted(connection, seed=0)
+        train(config, Connection(between, None), options)
+    assert events[:4] == ["asks", "learned", "asks", "on"]
+    last = len(events) - 1 - events[::-1].index("learned")
+    before = {events[i - 1] for i in range(1, last) if events[i] == "on"} - {"on"}
+    assert before == {"asks"}
 
 
 def test_one_episode_in_flight_never_has_more_than_one_open_question(tmp_path: Path, plain: tuple[Any, ...]) -> None:

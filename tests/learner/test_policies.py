@@ -205,3 +205,29 @@ def test_dropout_is_on_in_training_alone() -> None:
         said = [trained(np.ones((1, 2), np.float32)).logits.tolist() for _ in range(10)]
         assert said == said[:1] * 10
         trained.train(data(16))
+
+
+@pytest.mark.parametrize("idle", [0, 32])
+def test_policies_train_on_by_the_rows_of_their_preset(idle: int) -> None:
+    trained = policy(spec=replace(SPEC, idle=idle))
+    before = weights(trained)
+    trained.train_on(data(50))
+    assert all(equal(before, weights(trained))) == (idle == 0)
+
+
+def test_policies_train_on_once_after_an_episode_and_only_those_it_taught() -> None:
+    domain = CorridorDomain()
+    spec = replace(TINY.train_lo, idle=32)
+    learner = Learner(domain, replace(TINY, train_hi=spec, train_lo=spec), seed=0, threads=1)
+    sigma = learner.roll_out(learner.start(domain.instances("random").train[0], 0))
+    labels = Labels()
+    labels.append_hi(sigma, [0 for _ in sigma])
+    learner.learn(labels)
+    learned = {key: weights(one) for key, one in learner.imitators.items()}
+    learner.train_on()
+    once = {key: weights(one) for key, one in learner.imitators.items()}
+    learner.train_on()
+    assert not all(equal(learned[META], once[META]))
+    for key, one in learner.imitators.items():
+        assert all(equal(once[key], weights(one)))
+        assert key == META or all(equal(learned[key], once[key]))
