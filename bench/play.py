@@ -21,7 +21,7 @@ from tests.acceptance.processes import ServerProcess, free_port, start_learner
 from tests.browser.conftest import FLAGS, WIDE
 from tests.browser.kit import find_chromium
 
-RUN = ("h-bc", "--instances", "corners", "--preset", "demo", "--episodes", "100")
+RUN = ("h-bc", "--instances", "corners", "--episodes", "100")
 WATCH = """() => {
     const times = { pressed: 0, sent: 0, back: [], drawn: [] };
     window.times = times;

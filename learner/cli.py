@@ -51,7 +51,7 @@ def train(
     algorithm: Annotated[str, typer.Argument(help="hg-dagger, h-bc or another; a wrong name lists all.")],
     domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
     instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "random",
-    preset: Annotated[str, typer.Option(help="The values of learning.")] = "paper",
+    preset: Annotated[str, typer.Option(help="The values of learning.")] = "lean",
     seed: Annotated[int, typer.Option(min=0, help="Fixes the run.")] = 0,
     episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 1000,
     warm_start: Annotated[int | None, typer.Option(min=0, help="Demonstrations first; the preset's if absent.")] = None,

@@ -10,7 +10,7 @@ class TrainConfig:
     algorithm: str
     domain: str = "maze"
     instances: str = "random"
-    preset: str = "paper"
+    preset: str = "lean"
     seed: int = 0
     episodes: int = 1_000
     in_flight: int = 1  # episodes open at once; 1 is the paper's loop

@@ -18,8 +18,7 @@ from server.settings import Settings
 from server.tables import queries
 
 DEFER_SECONDS = 25.0  # how long the bot leaves a question to a person at work
-WARM_START = 20
-PRESET = "demo"
+THINKING_SECONDS = 1.0  # for each answer: while the link is opened, the run does not race through to its end
 LINK_SECONDS = 86_400.0
 PATIENCE_SECONDS = 120.0  # the link is printed by then, whatever the learner does
 
@@ -51,15 +50,13 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
             return process
 
         typer.echo(f"Waypost is at {served.url}; what is answered is kept in {database}.")
-        start("oracle-bot", "annotator", "oracle", "--defer", str(DEFER_SECONDS))
-        # Nobody need play the whole warm start before there is something to judge.
-        start("demonstrator", "annotator", "oracle", "--kinds", "hier_demo")
-        train = ("train", "hg-dagger", "--expert", "queue", "--name", "demo", "--preset", PRESET)
-        values = ("--instances", instances, "--episodes", str(episodes), "--warm-start", str(WARM_START))
+        start("oracle-bot", "annotator", "oracle", "--defer", str(DEFER_SECONDS), "--seconds", str(THINKING_SECONDS))
+        train = ("train", "hg-dagger", "--expert", "queue", "--name", "demo")
+        values = ("--instances", instances, "--episodes", str(episodes))
         checkpoints = ("--checkpoints", str(database.with_name(f"{database.name}.checkpoints")))
         learner = start("demo-learner", "learner", *train, *values, *checkpoints)
         try:
-            typer.echo(f"A bot shows a learner {WARM_START} ways through mazes; then it begins to ask.")
+            typer.echo("A bot shows a learner a few ways through mazes; then it begins to ask.")
             wait_for_questions(served.db, learner)
             typer.echo("Answer with the keyboard; a bot answers whatever you leave.")
             typer.echo(f"Open this link, once: {login_url(served.db, served.url, 'you', 'admin', LINK_SECONDS)}")

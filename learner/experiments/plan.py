@@ -59,8 +59,14 @@ def _imitation(instances: str, redraw: bool, *algorithms: str) -> tuple[Series, 
     }
     passive = {"h-bc", "flat-bc"}  # nothing is rolled out, so nothing is drawn again
     return tuple(
-        Series(TrainConfig(a, instances=instances, redraw=redraw and a not in passive), labels[a]) for a in algorithms
+        Series(TrainConfig(a, instances=instances, preset="paper", redraw=redraw and a not in passive), labels[a])
+        for a in algorithms
     )
+
+
+def _hybrid(label: str, algorithm: str, head_start: float | None = None) -> Series:
+    config = TrainConfig(algorithm, instances="corners", preset="paper", episodes=8_000, head_start=head_start)
+    return Series(config, label)
 
 
 _FOUR = ("hg-dagger", "h-bc", "flat-dagger", "flat-bc")
@@ -106,10 +112,10 @@ _MAZE = (
         "Episodes: every rollout. LO samples: the learner's own steps in training rollouts.",
         ("progress-by-sample", "success-by-sample"),
         (
-            Series(TrainConfig("hg-dagger-q", instances="corners", episodes=8_000), "hg-DAgger/Q"),
-            Series(TrainConfig("h-dqn", instances="corners", episodes=8_000, head_start=0.5), "h-DQN, head start 50 %"),
-            Series(TrainConfig("h-dqn", instances="corners", episodes=8_000), "h-DQN"),
-            Series(TrainConfig("flat-dqn", instances="corners", episodes=8_000), "flat DDQN"),
+            _hybrid("hg-DAgger/Q", "hg-dagger-q"),
+            _hybrid("h-DQN, head start 50 %", "h-dqn", head_start=0.5),
+            _hybrid("h-DQN", "h-dqn"),
+            _hybrid("flat DDQN", "flat-dqn"),
         ),
         hybrid=True,
     ),
@@ -135,7 +141,7 @@ _LEAN = (
             _lean("h-BC", "h-bc"),
             _lean("flat DAgger", "flat-dagger"),
             _lean("flat BC", "flat-bc"),
-            Series(TrainConfig("hg-dagger"), "hg-DAgger, paper", beside=True),
+            Series(TrainConfig("hg-dagger", preset="paper"), "hg-DAgger, paper", beside=True),
         ),
         lean=True,
     ),
@@ -147,7 +153,7 @@ _LEAN = (
         (
             _lean("hg-DAgger", instances="corners"),
             _lean("hg-DAgger, nothing more assumed", instances="corners", values=_FEWER),
-            Series(TrainConfig("hg-dagger", instances="corners"), "hg-DAgger, paper", beside=True),
+            Series(TrainConfig("hg-dagger", instances="corners", preset="paper"), "hg-DAgger, paper", beside=True),
         ),
         lean=True,
     ),

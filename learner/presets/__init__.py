@@ -7,14 +7,13 @@ from typing import Any, get_type_hints
 from pydantic import TypeAdapter, ValidationError
 
 from learner.presets.base import Preset
-from learner.presets.demo import DEMO
 from learner.presets.lean import LEAN
 from learner.presets.paper import PAPER
 
 Changes = dict[str, "str | Changes"]
 """Values by name, as JSON, and groups of them."""
 
-PRESETS = {"demo": DEMO, "lean": LEAN, "paper": PAPER}
+PRESETS = {"lean": LEAN, "paper": PAPER}
 
 
 def find_preset(name: str, values: str | None = None) -> Preset:

@@ -92,9 +92,10 @@ def free_port() -> int:
         return int(probe.getsockname()[1])
 
 
-# A short run that asks every kind of query of Algorithm 2.
-VALUES = ("hg-dagger", "--domain", "maze", "--instances", "corners", "--preset", "demo", "--seed", "0")
-LENGTH = ("--episodes", "40", "--warm-start", "20")
+# A short run that asks every kind of query of Algorithm 2: what is trained so little makes all kinds of mistakes.
+LITTLE = "train_hi.least=1280 train_hi.most=1280 train_lo.least=1280 train_lo.most=1280"
+VALUES = ("hg-dagger", "--domain", "maze", "--instances", "corners", "--values", LITTLE, "--seed", "0")
+LENGTH = ("--episodes", "40")
 
 Reference = tuple[dict[str, Any], list[Any]]
 """A run's summary and its history."""

@@ -93,6 +93,13 @@ def test_the_ledgers_sum_is_the_cost_printed(trained: tuple[Path, str]) -> None:
         assert connection.learner.run(summary["run"]).result == summary
 
 
+def test_the_preset_is_lean_unless_another_is_named() -> None:
+    result = waypost("train", "h-bc", "--domain", "corridor", "--episodes", "1", "--store", "lean.db", "--json")
+    assert result.exit_code == 0, result.output
+    with embedded(Path("lean.db")) as connection:
+        assert connection.learner.run(json.loads(result.stdout)["run"]).config["preset"] == "lean"
+
+
 def test_training_without_json_prints_a_summary_for_people(trained: tuple[Path, str]) -> None:
     result = waypost(*TRAIN, "--episodes", "8", "--store", str(trained[0]))
     assert result.exit_code == 0
