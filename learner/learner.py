@@ -21,6 +21,7 @@ from learner.types import FLAT, META, PolicyKey, State, Trajectory
 
 TRAIN, TEST = 0, 1
 """Streams of randomness: training and test rollouts draw from different ones."""
+_ONE_OF = 6  # another: which segment of a rollout an algorithm asks about
 
 
 @dataclass(frozen=True)
@@ -114,6 +115,10 @@ class Learner:
         del s  # the simulator is in it
         rollout = self.rollout(self.simulator, self.simulator.instance, TRAIN, self._draw)
         return run(rollout, self.policies, self._stepped)
+
+    def draw_one(self, sigma: Trajectory) -> int:
+        """Return the number of a segment of the rollout that was just made, each as likely."""
+        return int(np.random.default_rng([self.seed, _ONE_OF, self._draw]).integers(len(sigma)))
 
     def _stepped(self, key: PolicyKey) -> None:
         owner = self._sights[key].owner

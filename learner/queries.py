@@ -35,6 +35,7 @@ class LabelHi:
     """
 
     trajectory: Trajectory
+    before: Trajectory = ()
 
 
 @dataclass(frozen=True)

@@ -61,11 +61,11 @@ class Translator:
                     segments=self._segments(sigma),
                     **common,
                 )
-            case LabelHi(sigma):
+            case LabelHi(sigma, before):
                 return wire.AskLabelHi(
                     kind="label_hi",
-                    question="Which subgoal was right at the start of each segment?",
-                    segments=self._segments(sigma),
+                    question=f"Which subgoal was right at the start of {'each' if len(sigma) > 1 else 'this'} segment?",
+                    **self._parted(before, sigma),
                     suggestion=wire.LabelHiAnswer(kind="label_hi", subgoals=[self._subgoal(s) for s in sigma]),
                     **common,
                 )
@@ -73,14 +73,14 @@ class Translator:
                 return wire.AskInspectLo(
                     kind="inspect_lo",
                     question=f"Did this segment accomplish “{self._words(segment)}”?",
-                    **self._parted(before, segment),
+                    **self._parted(before, (segment,)),
                     **common,
                 )
             case LabelLo(segment, before):
                 return wire.AskLabelLo(
                     kind="label_lo",
                     question=f"Which action was right in each state toward “{self._words(segment)}”?",
-                    **self._parted(before, segment),
+                    **self._parted(before, (segment,)),
                     suggestion=wire.LabelLoAnswer(
                         kind="label_lo",
                         actions=list(self._actions(segment.actions)),
@@ -135,10 +135,10 @@ class Translator:
             state = states[-1]
         return tuple(sigma)
 
-    def _parted(self, before: Sequence[Segment], segment: Segment) -> dict[str, Any]:
-        """Return a segment to ask about, and what came before it."""
-        *context, asked = self._segments([*before, segment])
-        return {"segments": [asked], "context": context}
+    def _parted(self, before: Trajectory, asked: Trajectory) -> dict[str, Any]:
+        """Return the segments to ask about, and what came before them."""
+        segments = self._segments([*before, *asked])
+        return {"segments": segments[len(before) :], "context": segments[: len(before)]}
 
     def _segments(self, segments: Sequence[Segment]) -> list[wire.Segment]:
         """Return segments that follow each other from the start of the episode."""

@@ -11,6 +11,7 @@ from learner.algorithms.h_bc import h_bc
 from learner.algorithms.h_dqn import h_dqn
 from learner.algorithms.hg_dagger import hg_dagger
 from learner.algorithms.hg_dagger_q import hg_dagger_q
+from learner.algorithms.hg_stagger import hg_stagger
 from learner.algorithms.naive_h_dagger import naive_h_dagger
 from learner.datasets import Labels
 from learner.learner import HIERARCHY, Learner, Structure
@@ -39,6 +40,7 @@ _FLAT = Structure(flat=True)
 ALGORITHMS = {
     "h-bc": Algorithm(h_bc),
     "hg-dagger": Algorithm(hg_dagger, warm_start=h_bc),
+    "hg-stagger": Algorithm(hg_stagger, warm_start=h_bc),
     "naive-h-dagger": Algorithm(naive_h_dagger, warm_start=h_bc),
     "flat-bc": Algorithm(flat_bc, structure=_FLAT),
     "flat-dagger": Algorithm(flat_dagger, warm_start=flat_bc, structure=_FLAT),

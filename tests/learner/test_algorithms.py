@@ -16,6 +16,7 @@ from learner.algorithms.h_bc import h_bc
 from learner.algorithms.h_dqn import h_dqn
 from learner.algorithms.hg_dagger import hg_dagger
 from learner.algorithms.hg_dagger_q import hg_dagger_q
+from learner.algorithms.hg_stagger import hg_stagger
 from learner.algorithms.naive_h_dagger import naive_h_dagger
 from learner.datasets import Labels
 from learner.queries import HierDemo, InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, LoLabels, Query
@@ -30,13 +31,17 @@ class ScriptedLearner:
 
     preset = TINY
 
-    def __init__(self, sigma: Trajectory) -> None:
-        self.sigma = sigma
+    def __init__(self, sigma: Trajectory, drawn: int = 0) -> None:
+        self.sigma, self.drawn = sigma, drawn
         self.started_from: list[State] = []
 
     def roll_out(self, s: State) -> Trajectory:
         self.started_from.append(s)
         return self.sigma
+
+    def draw_one(self, sigma: Trajectory) -> int:
+        assert sigma == self.sigma
+        return self.drawn
 
 
 class Expert:
@@ -58,8 +63,8 @@ class Expert:
                 return self.sigma
             case LabelFull(sigma):
                 return (1,) * n_actions(sigma)
-            case LabelHi():
-                return tuple(self.good_subgoals)
+            case LabelHi(sigma):
+                return tuple(self.good_subgoals[self.sigma.index(one)] for one in sigma)
             case InspectLo(one):
                 return self.lo_passes[self.sigma.index(one)]
             case LabelLo(one):
@@ -136,6 +141,41 @@ def test_when_every_segment_passes_only_the_subgoals_are_learned() -> None:
     sigma, expert, labels = hg_dagger_episode([0, 1], [0, 1], [True, True])
     assert expert.asked[2:] == [InspectLo(sigma[0], before=()), InspectLo(sigma[1], before=sigma[:1])]
     assert labels.rows.keys() == {META}
+
+
+@pytest.mark.parametrize(
+    ("good", "lo_passes", "kinds"),
+    [
+        (1, True, [InspectFull, LabelHi, InspectLo]),
+        (1, False, [InspectFull, LabelHi, InspectLo, LabelLo]),
+        (3, False, [InspectFull, LabelHi]),
+    ],
+)
+def test_stagger_asks_for_the_subgoal_of_one_segment_and_inspects_that_alone(
+    good: int, lo_passes: bool, kinds: list[Any]
+) -> None:
+    sigma = tuple(segment(subgoal, n_actions=2) for subgoal in (0, 1, 2))
+    learner: Any = ScriptedLearner(sigma, drawn=1)
+    expert = Expert(sigma, passes=False, good_subgoals=[0, good, 2], lo_passes=[True, lo_passes, True])
+    labels = carried_out(hg_stagger(S, learner), expert)
+    asked: list[Query] = [
+        InspectFull(sigma),
+        LabelHi(sigma[1:2], before=sigma[:1]),
+        InspectLo(sigma[1], before=sigma[:1]),
+        LabelLo(sigma[1], before=sigma[:1]),
+    ]
+    assert expert.asked == asked[: len(kinds)]
+    assert [type(query) for query in expert.asked] == kinds
+    assert [row.choice for row in labels.rows[META]] == [good]
+    assert (1 in labels.rows) == (LabelLo in kinds)
+
+
+def test_stagger_learns_nothing_of_an_episode_that_passed() -> None:
+    sigma = (segment(0), segment(1))
+    learner: Any = ScriptedLearner(sigma, drawn=1)
+    expert = Expert(sigma, passes=True, good_subgoals=[0, 1], lo_passes=[True, True])
+    assert carried_out(hg_stagger(S, learner), expert).rows == {}
+    assert expert.asked == [InspectFull(sigma)]
 
 
 choices = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4), st.booleans()), min_size=1, max_size=8)

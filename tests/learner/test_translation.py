@@ -65,6 +65,16 @@ def test_the_suggestion_of_label_hi_is_what_the_learner_chose() -> None:
     assert ask.suggestion == wire.LabelHiAnswer(kind="label_hi", subgoals=["east", "west"])
 
 
+def test_label_hi_can_be_of_one_segment_with_what_came_before() -> None:
+    ask = translator.ask(LabelHi(sigma[1:], before=sigma[:1]), 0, 1)
+    whole = translator.ask(LabelHi(sigma), 0, 1)
+    assert (ask.context, ask.segments) == (whole.segments[:1], whole.segments[1:])
+    assert ask.suggestion == wire.LabelHiAnswer(kind="label_hi", subgoals=["west"])
+    assert "this segment" in ask.question
+    assert "each segment" in whole.question
+    assert kinds.cost(ask.suggestion, wire.Prices()).units == kinds.cost(whole.suggestion, wire.Prices()).units // 2
+
+
 def test_answers_come_back_as_numbers() -> None:
     assert translator.answer(wire.InspectAnswer(kind="inspect_lo", verdict="pass")) is True
     assert translator.answer(wire.InspectAnswer(kind="inspect_full", verdict="fail")) is False
