@@ -7,7 +7,7 @@ from learner.presets.base import Preset
 from learner.rollout import Choosing
 
 _ROWS, _IDLE = 100 * 64, 200 * 64  # of a round: small data is gone through again and again
-_FLAT_ROWS, _HYBRID_ROWS = 200 * 64, 20 * 64
+_HYBRID_ROWS = 20 * 64
 
 LEAN = Preset(
     warm_start=3,
@@ -17,7 +17,7 @@ LEAN = Preset(
     train_lo=TrainSpec(
         5e-3, 64, least=_ROWS, most=_ROWS, idle=_IDLE, dropout=0.0, weight_decay=0.1, averaging=0.995, bf16=False
     ),
-    train_flat=TrainSpec(1e-3, 64, least=_FLAT_ROWS, most=_FLAT_ROWS, dropout=0.2, averaging=0.995),
+    train_flat=TrainSpec(1e-3, 64, least=_ROWS, most=_ROWS, dropout=0.2, averaging=0.995),
     train_hi_hybrid=TrainSpec(
         5e-3, 64, least=_HYBRID_ROWS, most=_HYBRID_ROWS, dropout=0.0, averaging=0.995, bf16=False
     ),
