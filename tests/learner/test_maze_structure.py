@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 from learner.domains.base import Grid, Symmetry, View
 from learner.domains.maze.domain import MazeDomain
 from learner.domains.maze.env import AGENT, TARGET, TRAIL, MazeEnv
-from learner.domains.maze.maze import ROOMS, Cell, Maze, moved, room_of
+from learner.domains.maze.maze import ROOMS, Cell, Maze, moved, room_of, walls
 from learner.domains.maze.structure import FLAT_VIEW, HI_VIEW, LO_VIEW, relabeled
 from learner.experts.oracle import OracleExpert
 from learner.learner import Learner
 from learner.simulator import Simulator
 from learner.translation import Translator
 from learner.types import Segment, Subgoal, Trajectory
-from tests.learner.kit import TINY, drawn_mazes, examples, free_cells, mazes
+from tests.learner.kit import TINY, drawn_mazes, examples, free_cells, mazes, neighbours, solved
 
 domain = MazeDomain()
 views = st.sampled_from([HI_VIEW, LO_VIEW, FLAT_VIEW])
@@ -24,6 +24,18 @@ views = st.sampled_from([HI_VIEW, LO_VIEW, FLAT_VIEW])
 def seen_from(maze: Maze, cell: Cell) -> np.ndarray:
     observation, _ = MazeEnv().reset(options={"instance": Maze(maze.lava, cell, maze.goal)})
     return observation
+
+
+def with_nearest_doors(maze: Maze, agent: Cell) -> Maze:
+    """The maze in which each wall without lava beside it has only the doors nearest to the agent."""
+    lava = maze.lava.copy()
+    for *_, wall in walls():
+        beside = [cell for door in wall for cell in neighbours(door) if room_of(cell) is not None]
+        steps = {door: sum(abs(a - b) for a, b in zip(door, agent, strict=True)) for door in wall if not lava[door]}
+        if not any(lava[cell] for cell in beside):
+            for door in steps:
+                lava[door] = steps[door] > min(steps.values())
+    return Maze(lava, agent, maze.goal)
 
 
 def demonstration(maze: Maze) -> Trajectory:
@@ -98,9 +110,29 @@ def test_the_agents_place_is_in_the_middle_of_every_view(maze: Maze, data: st.Da
 @examples
 @given(mazes(), st.data())
 def test_subgoals_are_chosen_by_the_whole_maze_without_the_trail(maze: Maze, data: st.DataObject) -> None:
-    seen = HI_VIEW.observe(seen_from(maze, data.draw(st.sampled_from(free_cells(maze)))))
+    cell = data.draw(st.sampled_from(free_cells(maze)))
+    seen = HI_VIEW.observe(seen_from(maze, cell))
     assert not (seen == TRAIL).any()
-    assert (seen[1] == 0).sum() == (~maze.lava).sum()
+    assert (seen[1] == 0).sum() == (~with_nearest_doors(maze, cell).lava).sum()
+
+
+@examples
+@given(mazes(), st.data(), st.sampled_from([HI_VIEW, LO_VIEW]))
+def test_of_several_doors_in_a_wall_the_nearest_are_seen(maze: Maze, data: st.DataObject, view: View) -> None:
+    cell = data.draw(st.sampled_from(free_cells(maze)))
+    nearest = with_nearest_doors(maze, cell)
+    assert (view.observe(seen_from(maze, cell)) == view.observe(seen_from(nearest, cell))).all()
+
+
+@examples
+@given(mazes(), st.data())
+def test_where_some_doors_are_not_seen_the_same_rooms_can_be_reached(maze: Maze, data: st.DataObject) -> None:
+    cell = data.draw(st.sampled_from(free_cells(maze)))
+    before, after = (
+        {place for place, steps in solved(one, cell).items() if steps < np.inf and room_of(place) is not None}
+        for one in (maze, with_nearest_doors(maze, cell))
+    )
+    assert before == after
 
 
 @examples

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from learner.domains.base import Grid, Relabeled, View
 from learner.domains.maze.env import AGENT, LAVA, TARGET, TRAIL
-from learner.domains.maze.maze import GO_TO_TARGET, MOVES, ROOMS, SIZE, Cell, cell_of, room_beside, room_of
+from learner.domains.maze.maze import GO_TO_TARGET, MOVES, ROOMS, SIZE, Cell, cell_of, room_beside, room_of, walls
 from learner.types import Subgoal, Trajectory
 
 Picture = NDArray[np.float32]
@@ -20,26 +20,34 @@ _CELLS = Grid(patch=3, stride=1, moves=MOVES)
 _ACROSS = ROOMS * (2 * ROOMS - 1) + 1  # pixels, with the agent's room in the middle of all that can be around it
 BACK = 1  # flips the number of a direction to that of its opposite
 _REACH = 5  # cells: a room, its walls and what is just behind them
+_WALLS = np.array([cells for *_, cells in walls()])  # [24, 3, 2], where each wall can have doors
+_THROUGH = np.array([np.subtract(second, first) for first, second, _ in walls()])[:, None]  # [24, 1, 2], one step
+_BESIDE = np.concatenate([_WALLS - _THROUGH, _WALLS + _THROUGH], 1)  # [24, 6, 2], the cells on both sides of each wall
 
 
 def _whole(observation: Picture) -> Picture:
-    """Return the maze around the agent's room, float32[3, 29, 29], without the trail; beyond the maze there is lava."""
+    """Return the maze around the agent's room, float32[3, 29, 29], without the trail; beyond the maze there is lava.
+
+    Of several doors in a wall, only the nearest are seen.
+    """
     row, column = _agent(observation)
     top, left = (ROOMS * (ROOMS - 1 - min(place // ROOMS, ROOMS - 1)) for place in (row, column))
     seen = _lava(_ACROSS)
-    seen[:, top : top + SIZE, left : left + SIZE] = np.where(observation == TRAIL, np.float32(0), observation)
+    picture = _with_nearest_doors(observation)
+    seen[:, top : top + SIZE, left : left + SIZE] = np.where(picture == TRAIL, np.float32(0), picture)
     return seen
 
 
 def _near(observation: Picture) -> Picture:
     """Return the cells around the agent, float32[3, 11, 11], as far as they are of its room, or just behind its walls.
 
-    Of what is beyond a door in which the agent stands, the first cells are seen. What is farther is lava.
+    Of what is beyond a door in which the agent stands, the first cells are seen. What is farther is lava. Of several
+    doors in a wall, only the nearest are seen.
     """
     agent = _agent(observation)
     rows, columns = (slice(*_extent(place)) for place in agent)
     seen = _lava(SIZE + 2 * _REACH)
-    seen[:, _REACH:-_REACH, _REACH:-_REACH][:, rows, columns] = observation[:, rows, columns]
+    seen[:, _REACH:-_REACH, _REACH:-_REACH][:, rows, columns] = _with_nearest_doors(observation)[:, rows, columns]
     (top, left), side = agent, 2 * _REACH + 1
     return np.ascontiguousarray(seen[:, top : top + side, left : left + side])
 
@@ -49,6 +57,24 @@ def _all(observation: Picture) -> Picture:
     row, column = _agent(observation)
     seen = _lava(2 * SIZE - 1)
     seen[:, SIZE - 1 - row : 2 * SIZE - 1 - row, SIZE - 1 - column : 2 * SIZE - 1 - column] = observation
+    return seen
+
+
+def _with_nearest_doors(observation: Picture) -> Picture:
+    """Return the maze with lava in all doors of a wall but that nearest to the agent, or those, if two are as near.
+
+    So every maze looks as those do whose walls have one door at most, and what was learned of these holds. It costs a
+    few steps where another door would have been nearer the target. A wall with lava beside it keeps all its doors, as
+    who can reach one of them might not reach the others.
+    """
+    doors = observation[1][*_WALLS.T].T != LAVA
+    if doors.sum(1).max() <= 1:
+        return observation
+    distances = np.where(doors, np.abs(_WALLS - _agent(observation)).sum(2), 2 * SIZE)
+    free = (observation[1][*_BESIDE.T] != LAVA).all(0)
+    hidden = doors & free[:, None] & (distances > distances.min(1, keepdims=True))
+    seen = observation.copy()
+    seen[1][*_WALLS[hidden].T] = LAVA
     return seen
 
 
