@@ -4,14 +4,15 @@ None of it is the paper's, and the `paper` preset uses none.
 """
 
 from collections.abc import Iterator, Sequence
+from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
 
 from learner.domains.base import Grid, Relabeled, View
 from learner.domains.maze.env import AGENT, LAVA, TARGET, TRAIL
-from learner.domains.maze.maze import GO_TO_TARGET, MOVES, ROOMS, SIZE, Cell, cell_of, room_beside, room_of, walls
-from learner.types import Subgoal, Trajectory
+from learner.domains.maze.maze import GO_TO_TARGET, MOVES, ROOMS, SIZE, Cell, Room, cell_of, room_beside, room_of, walls
+from learner.types import Segment, Subgoal, Trajectory
 
 Picture = NDArray[np.float32]
 
@@ -115,13 +116,19 @@ def _ways(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Iterator[
         if room_of(here) is None:  # chosen in a door, by mistake
             continue
         cells.append(here)
-        if segment.subgoal == good != GO_TO_TARGET and room_of(there) == room_beside(here, good):
+        if segment.subgoal == good != GO_TO_TARGET and _rooms(segment) == [room_of(here), room_beside(here, good)]:
             subgoals.append(good)
         else:
             yield cells, subgoals
             cells, subgoals = [], []
     if cells:
         yield [*cells, there], subgoals
+
+
+def _rooms(segment: Segment) -> list[Room]:
+    """Return the rooms that a segment went through, in order; where lava is before a door, it may be a way around."""
+    rooms = [room_of(cell_of(state.view)) for state in segment.states]
+    return [room for room, _ in groupby(room for room in rooms if room is not None)]
 
 
 def _others(lava: NDArray[np.bool_], here: Cell) -> list[Cell]:
