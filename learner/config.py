@@ -25,7 +25,7 @@ class Progress:
     """Where a run stands, between two episodes."""
 
     episodes: int = 0  # applied
-    draws: int = 0  # training instances drawn; more than episodes where they are looked for
+    draws: int = 0  # training instances drawn; more than episodes where they are drawn until one fails
     passes: int = 0  # inspections of whole episodes passed in a row
 
 

@@ -18,7 +18,6 @@ import numpy as np
 
 from learner.algorithms import Algorithm, Episode
 from learner.algorithms.unasked import unasked
-from learner.asking import doubt
 from learner.camera import Camera
 from learner.client import Client, Refused
 from learner.config import START, Progress, TrainConfig
@@ -27,7 +26,7 @@ from learner.domains.base import InstanceSets
 from learner.evaluation import attempt
 from learner.learner import TEST, TRAIN, Learner
 from learner.queries import HierDemo, Query
-from learner.rollout import run, run_all
+from learner.rollout import run
 from learner.translation import Translator
 from learner.types import FLAT, META
 from server import wire
@@ -161,8 +160,8 @@ class Driver:
     def _start_episode(self, number: int) -> None:
         """Get a new environment instance and go to the first query."""
         warm_start = self._algorithm.warm_start if number < self._learner.preset.warm_start else None
-        draw = self._draws if warm_start else self._draw()
-        self._draws = max(self._draws, draw + 1)
+        draw = self._draws if warm_start or not self._config.redraw else self._failing_draw()
+        self._draws = draw + 1
         instance = self._train_instance(draw)
         s = self._learner.start(instance, draw)
         generator = (warm_start or self._episode(number))(s, self._learner)
@@ -186,26 +185,6 @@ class Driver:
         chance = np.random.default_rng([self._config.seed, _MONITORING, number])
         skipped = self._algorithm.interactive and not monitoring.inspects(self._passes, chance)
         return unasked if skipped else self._algorithm.episode
-
-    def _draw(self) -> int:
-        """Return the draw to roll out on: the next one, or one that was looked for."""
-        if self._config.redraw:
-            return self._failing_draw()
-        if self._algorithm.interactive and self._learner.preset.rollouts > 1:
-            return self._doubtful_draw()
-        return self._draws
-
-    def _doubtful_draw(self) -> int:
-        """Return, of the next draws, that on whose instance mu doubts most; none of the others is used again."""
-        draws = range(self._draws, self._draws + self._learner.preset.rollouts)
-        self._draws = draws.stop
-        simulators = [self._learner.make_simulator() for _ in draws]
-        rollouts = [
-            self._learner.rollout(simulator, self._train_instance(draw), TRAIN, draw)
-            for simulator, draw in zip(simulators, draws, strict=True)
-        ]
-        doubts = [doubt(self._learner.policies, sigma) for sigma in run_all(rollouts, self._learner.policies)]
-        return draws[int(np.argmax(doubts))]
 
     def _failing_draw(self) -> int:
         """Return the next draw on whose instance the present policies fail; just the next one if they hardly do.

@@ -1,4 +1,4 @@
-"""An episode that the expert is not asked about: its success is known well enough (`learner/asking.py`)."""
+"""An episode that the expert is not asked about: its success is known well enough (`learner/monitoring.py`)."""
 
 from collections.abc import Generator
 from typing import Any

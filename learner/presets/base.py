@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from learner.asking import EVERY_EPISODE, Monitoring
 from learner.dqn import DqnSpec
+from learner.monitoring import EVERY_EPISODE, Monitoring
 from learner.networks import NetworkSpec
 from learner.policies import TrainSpec
 from learner.rollout import Choosing
@@ -31,9 +31,7 @@ class Preset:
     planning: int | None = None  # where a view shows places, a network plans over them, by so many features of each
     repeat_penalty: float = 0.0  # off the logit of a subgoal, for each time it was chosen in the same place before
     relabeling: bool = False  # whether labels are also learned from as labels of other tasks
-    # Which episodes the expert is asked about; the paper's is each (`learner/asking.py`):
-    monitoring: Monitoring = EVERY_EPISODE
-    rollouts: int = 1  # of so many, the one in which mu doubts most
+    monitoring: Monitoring = EVERY_EPISODE  # which episodes the expert is asked about
 
     def __post_init__(self) -> None:
         """Refuse values that contradict each other.

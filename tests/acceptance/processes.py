@@ -93,7 +93,7 @@ def free_port() -> int:
 
 
 # A short run that asks every kind of query of Algorithm 2: what is trained so little makes all kinds of mistakes.
-LITTLE = "train_hi.least=1280 train_hi.most=1280 train_lo.least=1280 train_lo.most=1280"
+LITTLE = " ".join(f"train_{level}.{rows}=640" for level in ("hi", "lo") for rows in ("least", "most", "idle"))
 VALUES = ("hg-dagger", "--domain", "maze", "--instances", "corners", "--values", LITTLE, "--seed", "0")
 LENGTH = ("--episodes", "40")
 

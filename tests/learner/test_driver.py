@@ -88,7 +88,7 @@ def test_with_three_episodes_in_flight_the_run_is_the_same_whatever_order_the_an
 def test_training_on_and_asking_less_depend_on_nobodys_pace(tmp_path: Path, in_flight: int) -> None:
     train_on = " ".join(f"train_{level}.idle=32" for level in ("hi", "lo"))
     sampled = "monitoring.share=0.5 monitoring.rate=0.5 monitoring.confidence=0.5"
-    config = corridor(in_flight=in_flight, values=f"{train_on} {sampled} rollouts=2")
+    config = corridor(in_flight=in_flight, values=f"{train_on} {sampled}")
     assert out_of_order(tmp_path / "other", config, seed=1)[0] == at_once(tmp_path / "one", config)
 
 

@@ -109,7 +109,7 @@ def test_a_run_with_redraw_goes_on_with_the_same_instances(tmp_path: Path) -> No
 
 def test_what_is_trained_on_and_how_many_passed_survives_an_interruption(tmp_path: Path) -> None:
     sampled = "monitoring.share=0.5 monitoring.rate=0.5 monitoring.confidence=0.75"
-    config = corridor(values=f"train_hi.idle=32 train_lo.idle=32 {sampled} rollouts=2", episodes=20)
+    config = corridor(values=f"train_hi.idle=32 train_lo.idle=32 {sampled}", episodes=20)
     expected = uninterrupted(tmp_path / "uninterrupted", config)
     for call in (40, 60, 80):
         assert interrupted(tmp_path / f"interrupted-{call}", config, call, before_it_arrives=True) == expected

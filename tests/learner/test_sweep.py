@@ -28,7 +28,8 @@ from server.settings import Settings
 from tests.learner.kit import corridor, history
 
 # A preset of the product: a sweep's workers know no other.
-VALUES = {"preset": "lean", "values": "train_hi.least=640 train_hi.most=640 train_lo.least=640 train_lo.most=640"}
+_LITTLE = " ".join(f"train_{level}.least=640 train_{level}.most=640 train_{level}.idle=0" for level in ("hi", "lo"))
+VALUES = {"preset": "lean", "values": _LITTLE}
 RUNS = [corridor(algorithm=algorithm, seed=seed, **VALUES) for seed in (0, 1) for algorithm in ("hg-dagger", "h-bc")]
 SCRIPT = """
 import sys

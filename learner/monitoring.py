@@ -1,16 +1,12 @@
-"""Which episodes the expert is asked about: all of them, as Algorithm 2 has it, or fewer, by these options.
+"""Which episodes the expert is asked about: each, as Algorithm 2 has it, or those of a sampling plan.
 
-Neither changes what is asked within an episode, nor what it costs. What each does to Theorem 1: docs/lean.md.
+It changes neither what is asked within an episode nor what that costs. What it does to Theorem 1: docs/lean.md.
 """
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
-import torch
-
-from learner.rollout import Policies
-from learner.types import FLAT, META, Trajectory
 
 
 @dataclass(frozen=True)
@@ -22,7 +18,7 @@ class Monitoring:
     """
 
     share: float = 1.0  # of the episodes, once success is known; 1: every one, as Algorithm 2 has it
-    rate: float = 0.95  # the success rate that is then known,
+    rate: float = 0.9  # the success rate that is then known,
     confidence: float = 0.95  # with this confidence
 
     def __post_init__(self) -> None:
@@ -46,13 +42,3 @@ class Monitoring:
 
 EVERY_EPISODE = Monitoring()
 """Algorithm 2's: each is inspected."""
-
-
-def doubt(policies: Policies, sigma: Trajectory) -> float:
-    """Return how much mu, or a flat policy, doubted along a rollout: the entropies of its choices in nats, summed."""
-    key, states = META, [segment.start for segment in sigma]
-    if FLAT in policies:
-        key, states = FLAT, [state for segment in sigma for state in segment.states[:-1]]
-    logits = policies[key](np.stack([state.observation for state in states])).logits
-    log_p = torch.log_softmax(torch.from_numpy(logits), dim=1)
-    return float(-(log_p.exp() * log_p).sum())
