@@ -60,11 +60,13 @@ def uninterrupted(path: Path, config: TrainConfig) -> tuple[Any, ...]:
         return outcome(connection, train(config, connection, options))
 
 
-def interrupted(path: Path, config: TrainConfig, call: int, before_it_arrives: bool) -> tuple[Any, ...]:
+def interrupted(
+    path: Path, config: TrainConfig, call: int, before_it_arrives: bool, route: str = ""
+) -> tuple[Any, ...]:
     """The run, interrupted and resumed."""
     with store(path) as (connection, options):
         try:
-            with interrupted_at(call, before_it_arrives):
+            with interrupted_at(call, before_it_arrives, route):
                 train(config, connection, options)
         except Interrupted:
             pass
@@ -107,12 +109,14 @@ def test_a_run_with_redraw_goes_on_with_the_same_instances(tmp_path: Path) -> No
     assert interrupted(tmp_path / "interrupted", config, 60, before_it_arrives=True) == expected
 
 
-def test_what_is_trained_on_and_how_many_passed_survives_an_interruption(tmp_path: Path) -> None:
-    sampled = "monitoring.share=0.5 monitoring.rate=0.5 monitoring.confidence=0.75"
+@pytest.mark.parametrize("share", [0.5, 0.0])
+def test_what_is_trained_on_and_how_many_passed_survives_an_interruption(tmp_path: Path, share: float) -> None:
+    sampled = f"monitoring.share={share} monitoring.rate=0.5 monitoring.confidence=0.5"
     config = corridor(values=f"train_hi.idle=32 train_lo.idle=32 {sampled}", episodes=20)
     expected = uninterrupted(tmp_path / "uninterrupted", config)
-    for call in (40, 60, 80):
-        assert interrupted(tmp_path / f"interrupted-{call}", config, call, before_it_arrives=True) == expected
+    for episode in (7, 10, 18):
+        path = tmp_path / f"interrupted-{episode}"
+        assert interrupted(path, config, episode, before_it_arrives=True, route="/episodes") == expected
 
 
 @pytest.mark.timeout(120)
