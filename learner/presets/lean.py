@@ -6,16 +6,17 @@ from learner.policies import TrainSpec
 from learner.presets.base import Preset
 from learner.rollout import Choosing
 
-_ROWS, _IDLE = 100 * 64, 200 * 64  # of a round: small data is gone through again and again
+_ROWS = 100 * 64  # of a round: small data is gone through again and again
+_IDLE_HI, _IDLE_LO = 200 * 64, 400 * 64  # LO labels come seldom, so there are few rounds
 _HYBRID_ROWS = 20 * 64
 
 LEAN = Preset(
     warm_start=3,
     network=NetworkSpec(channels=(16, 32), hidden=128),  # where nothing is planned: flat policies
     planning=32,
-    train_hi=TrainSpec(5e-3, 64, least=_ROWS, most=_ROWS, idle=_IDLE, dropout=0.0, averaging=0.995, bf16=False),
+    train_hi=TrainSpec(5e-3, 64, least=_ROWS, most=_ROWS, idle=_IDLE_HI, dropout=0.0, averaging=0.995, bf16=False),
     train_lo=TrainSpec(
-        5e-3, 64, least=_ROWS, most=_ROWS, idle=_IDLE, dropout=0.0, weight_decay=0.1, averaging=0.995, bf16=False
+        1e-2, 64, least=_ROWS, most=_ROWS, idle=_IDLE_LO, dropout=0.0, weight_decay=0.1, averaging=0.995, bf16=False
     ),
     train_flat=TrainSpec(1e-3, 64, least=_ROWS, most=_ROWS, dropout=0.2, averaging=0.995),
     train_hi_hybrid=TrainSpec(
