@@ -1,9 +1,9 @@
 """Checkpoints: everything a learner is, in one safetensors file, written so that it is never torn.
 
 Tensors: `policy.KEY.NAME` (the weights that act), and while a run is under way also `optimizer.KEY.INDEX.NAME`,
-`data.KEY.*` (the buffers) and `rng.KEY`; where what acts is an average, `trained.KEY.NAME` (what it is of) and
-`averaged.KEY` (of how many); for a Q-function `target.KEY.NAME` and `counts.KEY` (steps, updates). What else must be
-known is JSON in the file's metadata. No code is stored, so none can run.
+`data.KEY.*` (the buffers), `rng.KEY`, and `due` (the policies that will train on); where what acts is an average,
+`trained.KEY.NAME` (what it is of) and `averaged.KEY` (of how many); for a Q-function `target.KEY.NAME` and `counts.KEY`
+(steps, updates). What else must be known is JSON in the file's metadata. No code is stored, so none can run.
 """
 
 import hashlib
@@ -85,6 +85,7 @@ def load(path: Path, learner: Learner) -> None:
         if f"rng.{key}" in tensors:
             policy.rng.set_state(tensors[f"rng.{key}"])
             _load_optimizer(policy.optimizer, _below(tensors, f"optimizer.{key}."))
+    learner.due = tensors["due"].tolist() if "due" in tensors else []
     for key, policy in learner.imitators.items():
         if f"rng.{key}" in tensors:
             if policy.average is not None:
@@ -114,7 +115,7 @@ def _weights(learner: Learner) -> Iterator[tuple[str, torch.Tensor]]:
 
 
 def _training_state(learner: Learner) -> Tensors:
-    tensors: Tensors = {}
+    tensors: Tensors = {"due": torch.tensor(learner.due, dtype=torch.int64)}
     for key, policy in learner.learned.items():
         for index, state in policy.optimizer.state_dict()["state"].items():
             tensors |= {f"optimizer.{key}.{index}.{name}": tensor for name, tensor in state.items()}

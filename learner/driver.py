@@ -143,6 +143,9 @@ class Driver:
                 else:
                     self._wait()
             self._learner.train_on()
+        except BudgetExhausted:
+            self._learner.train_on()
+            raise
         finally:
             for episode in self._open:
                 episode.withdraw()
@@ -183,8 +186,7 @@ class Driver:
         """Return what the episode is: the algorithm's, or one that asks nothing, where success is known."""
         monitoring = self._learner.preset.monitoring
         chance = np.random.default_rng([self._config.seed, _MONITORING, number])
-        skipped = self._algorithm.interactive and not monitoring.inspects(self._passes, chance)
-        return unasked if skipped else self._algorithm.episode
+        return self._algorithm.episode if monitoring.inspects(self._passes, chance) else unasked
 
     def _failing_draw(self) -> int:
         """Return the next draw on whose instance the present policies fail; just the next one if they hardly do.
@@ -274,7 +276,6 @@ class Driver:
         self._client.report(self._run_id, [result])
         self._applied += 1
         if self._applied % self._checkpoint_every == 0:
-            self._learner.train_on()
             self._checkpoint(self.progress)
         self._on_episode(result, episode.units)
 

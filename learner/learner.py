@@ -75,7 +75,7 @@ class Learner:
         self.policies = {key: one.through(self.learned[one.owner]) for key, one in self._sights.items()}
         self.data = {key: Dataset(self._sights[key].view.shape) for key in self.imitators}
         self._draw = 0
-        self._due: list[PolicyKey] = []  # the policies that the last episode had trained
+        self.due: list[PolicyKey] = []  # the policies that will train on
         # One thread a policy: small networks gain nothing from threads within one operation. What each policy learns
         # depends on its own data and generator, so the number of threads changes nothing but the time.
         torch.set_num_threads(1)
@@ -156,17 +156,17 @@ class Learner:
                 if key in self.q:
                     observe = self._sights[key].view.observe
                     self.q[key].replay.add(one.seen(observe) for one in transitions)
-        self._due = [
+        self.due = [
             key
             for key, policy in self.imitators.items()
             if policy.spec.every_episode or len(self.data[key]) > sizes[key]
         ]
-        list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), self._due))
+        list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), self.due))
 
     def train_on(self) -> None:
         """Train on what the last episode brought, once, where the preset has it so: while the expert is busy."""
-        list(self._threads.map(lambda key: self.imitators[key].train_on(self.data[key]), self._due))
-        self._due = []
+        list(self._threads.map(lambda key: self.imitators[key].train_on(self.data[key]), self.due))
+        self.due = []
 
     def _symmetric(self, labels: Labels, symmetric: bool) -> Iterator[Labels]:
         """Yield labels as they are, and as they are in each symmetry of the domain, if so."""

@@ -96,6 +96,8 @@ def build_learner(config: TrainConfig, threads: int | None) -> tuple[Learner, In
     if config.head_start is not None and not algorithm.structure.reinforced:
         raise ValueError(f"{config.algorithm} has an expert to learn from: leave out --head-start")
     preset = find_preset(config.preset, config.values)
+    if preset.monitoring.share < 1 and (config.redraw or not algorithm.monitored):
+        raise ValueError("monitoring.share below 1 is for hg-dagger, hg-stagger and flat-dagger, without --redraw")
     if config.warm_start is not None:
         preset = replace(preset, warm_start=config.warm_start)
     domain = find_domain(config.domain)

@@ -28,6 +28,7 @@ class Algorithm:
     episode: Episode
     warm_start: Episode | None = None  # what the first episodes are instead
     structure: Structure = HIERARCHY
+    monitored: bool = False  # whether it asks Inspect_FULL first, and learns nothing of an episode that passed
 
     @property
     def interactive(self) -> bool:
@@ -39,11 +40,11 @@ _FLAT = Structure(flat=True)
 
 ALGORITHMS = {
     "h-bc": Algorithm(h_bc),
-    "hg-dagger": Algorithm(hg_dagger, warm_start=h_bc),
-    "hg-stagger": Algorithm(hg_stagger, warm_start=h_bc),
+    "hg-dagger": Algorithm(hg_dagger, warm_start=h_bc, monitored=True),
+    "hg-stagger": Algorithm(hg_stagger, warm_start=h_bc, monitored=True),
     "naive-h-dagger": Algorithm(naive_h_dagger, warm_start=h_bc),
     "flat-bc": Algorithm(flat_bc, structure=_FLAT),
-    "flat-dagger": Algorithm(flat_dagger, warm_start=flat_bc, structure=_FLAT),
+    "flat-dagger": Algorithm(flat_dagger, warm_start=flat_bc, structure=_FLAT, monitored=True),
     "hg-dagger-q": Algorithm(hg_dagger_q, structure=Structure(q_lo=True)),
     "h-dqn": Algorithm(h_dqn, structure=Structure(q_hi=True, q_lo=True)),
     "flat-dqn": Algorithm(flat_dqn, structure=Structure(flat=True, q_lo=True)),

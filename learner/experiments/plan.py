@@ -145,6 +145,7 @@ def _paper(instances: str) -> Series:
     return Series(TrainConfig("hg-dagger", instances=instances, preset="paper"), "hg-DAgger, paper", True, most=1)
 
 
+_AT_ONCE = "train_hi.idle=0 train_lo.idle=0"  # enough, where every episode brings labels
 _SAMPLED = "monitoring.share=0.1 monitoring.rate=0.9"
 
 _LEAN = (
@@ -156,8 +157,8 @@ _LEAN = (
         (
             _lean("hg-DAgger"),
             _lean("hg-DAgger, nothing more assumed", values=_FEWER),
-            _lean("naive h-DAgger", "naive-h-dagger", most=3),
-            _lean("h-BC", "h-bc", most=3),
+            _lean("naive h-DAgger", "naive-h-dagger", values=_AT_ONCE, most=3),
+            _lean("h-BC", "h-bc", values=_AT_ONCE, most=3),
             _lean("flat DAgger", "flat-dagger", most=3),
             _lean("flat BC", "flat-bc", most=3),
             _paper("random"),
@@ -190,7 +191,7 @@ _LEAN = (
             _part("without planning", "planning=null"),
             _part("without views and planning", "views=false"),
             _part("without averaging", "train_hi.averaging=null train_lo.averaging=null"),
-            _part("without training on", "train_hi.idle=0 train_lo.idle=0"),
+            _part("without training on", _AT_ONCE),
             _part("20 demonstrations", "warm_start=20"),
         ),
         lean=True,

@@ -97,8 +97,8 @@ def relabeled(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Itera
 
     A part of a shortest way is a shortest way, and so is the way back.
     """
-    for cells, subgoals in _ways(trajectory, good_subgoals):
-        lava = trajectory[0].start.observation[1] == LAVA
+    lava = trajectory[0].start.observation[1] == LAVA
+    for cells, subgoals in _ways(trajectory, good_subgoals, lava):
         for i, here in enumerate(cells):
             for j, target in enumerate(cells):
                 if j != i:
@@ -107,7 +107,9 @@ def relabeled(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Itera
                 yield _picture(lava, here, target), GO_TO_TARGET
 
 
-def _ways(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Iterator[tuple[list[Cell], list[Subgoal]]]:
+def _ways(
+    trajectory: Trajectory, good_subgoals: Sequence[Subgoal], lava: NDArray[np.bool_]
+) -> Iterator[tuple[list[Cell], list[Subgoal]]]:
     """Yield the cells where good subgoals began that were carried out one after the other, with the last one's end."""
     cells: list[Cell] = []
     subgoals: list[Subgoal] = []
@@ -116,7 +118,8 @@ def _ways(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Iterator[
         if room_of(here) is None:  # chosen in a door, by mistake
             continue
         cells.append(here)
-        if segment.subgoal == good != GO_TO_TARGET and _rooms(segment) == [room_of(here), room_beside(here, good)]:
+        arrived = room_of(there) is not None and not lava[there]
+        if segment.subgoal == good != GO_TO_TARGET and arrived and _rooms(segment)[1:] == [room_beside(here, good)]:
             subgoals.append(good)
         else:
             yield cells, subgoals
