@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from learner.domains.base import Grid, Symmetry, View
@@ -11,11 +11,10 @@ from learner.domains.maze.env import AGENT, TARGET, TRAIL, MazeEnv
 from learner.domains.maze.maze import ROOMS, Cell, Maze, closed_rooms, moved, room_of, walls
 from learner.domains.maze.structure import FLAT_VIEW, HI_VIEW, LO_VIEW, relabeled
 from learner.experts.oracle import OracleExpert
-from learner.learner import Learner
 from learner.simulator import Simulator
 from learner.translation import Translator
 from learner.types import Segment, Subgoal, Trajectory
-from tests.learner.kit import TINY, drawn_mazes, examples, free_cells, mazes, neighbours, solved
+from tests.learner.kit import drawn_mazes, examples, free_cells, mazes, neighbours, solved
 
 domain = MazeDomain()
 views = st.sampled_from([HI_VIEW, LO_VIEW, FLAT_VIEW])
@@ -83,15 +82,53 @@ def test_a_way_around_lava_before_a_door_says_nothing_of_the_way_through_it() ->
     assert all(is_good(picture, subgoal) for picture, subgoal in said_of_other_tasks(maze))
 
 
-@examples
-@given(drawn_mazes(), st.integers(0, 2**32))
+def clumsy(maze: Maze, seed: int) -> Trajectory:
+    """An episode of somebody who knows the way, but takes wrong steps, goes on too far, and stops too early."""
+    rng, view = np.random.default_rng(seed), domain.instance_view(maze)
+    simulator = Simulator(domain)
+    state, sigma = simulator.reset(maze), list[Segment]()
+    while not simulator.ended and len(sigma) < 12:
+        good = domain.oracle.good_subgoals(view, state.view)
+        subgoal = good[0] if good and rng.random() < 0.9 else int(rng.integers(5))
+        states, actions = [state], list[int]()
+        while not simulator.ended and len(actions) < 10:
+            right = domain.oracle.good_actions(view, states[0].view, states[-1].view, subgoal)
+            actions.append(right[0] if right and rng.random() < 0.95 else int(rng.integers(4)))
+            states.append(simulator.step(actions[-1]))
+            over = domain.oracle.reached(view, states[0].view, states[-1].view, subgoal)
+            if rng.random() < (0.8 if over else 0.02):
+                break
+        state = states[-1]
+        sigma.append(Segment(subgoal, tuple(states), tuple(actions), terminated=True))
+    return tuple(sigma)
+
+
+@settings(examples, max_examples=100)
+@given(mazes(), st.integers(0, 2**32))
 def test_what_labels_of_a_failed_episode_say_of_other_tasks_is_right(maze: Maze, seed: int) -> None:
-    learner = Learner(domain, TINY, seed, threads=1)
-    sigma = learner.roll_out(learner.start(maze, 0))
-    view = domain.instance_view(maze)
+    sigma, view = clumsy(maze, seed), domain.instance_view(maze)
+    sigma = tuple(segment for segment in sigma if domain.oracle.good_subgoals(view, segment.start.view))
     good = [domain.oracle.good_subgoals(view, segment.start.view) for segment in sigma]
     labels = [segment.subgoal if segment.subgoal in ok else ok[0] for segment, ok in zip(sigma, good, strict=True)]
     assert all(is_good(picture, subgoal) for picture, subgoal in relabeled(sigma, labels))
+
+
+@pytest.mark.parametrize("too_far", [(15, 6), (14, 7), (14, 8)])
+def test_a_segment_that_went_on_into_a_wall_or_a_door_ends_the_way(too_far: Cell) -> None:
+    lava = closed_rooms()
+    for door in [(14, 4), (14, 8)]:
+        lava[door] = False
+    maze = Maze(lava, (14, 3), (14, 11))
+    simulator = Simulator(domain)
+    states = [simulator.reset(maze)]
+    down, right = 1, 3
+    actions = [right, right, *([down, right, down] if too_far[0] == 15 else [right] * (too_far[1] - 5))]
+    states += [simulator.step(action) for action in actions]
+    east = domain.subgoals.index("east")
+    segment = Segment(east, tuple(states), tuple(actions), terminated=True)
+    for picture, _ in relabeled((segment,), (east,)):
+        assert room_of(tuple(np.argwhere(picture[0] == AGENT)[0])) is not None
+        assert room_of(tuple(np.argwhere(picture[2] == TARGET)[0])) is not None
 
 
 def test_a_subgoal_that_was_missed_ends_the_way() -> None:
