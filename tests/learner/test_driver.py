@@ -19,6 +19,7 @@ from learner.domains.maze.domain import MazeDomain
 from learner.domains.maze.maze import Maze
 from learner.experts.head_start import head_start
 from learner.experts.oracle import OracleExpert
+from learner.learner import Learner
 from learner.policies import Policy
 from learner.simulator import Simulator
 from learner.training import Connection, train
@@ -181,6 +182,20 @@ def test_a_budget_ends_the_run_with_what_it_has_and_is_never_overspent(tmp_path:
     assert 0 < summary["cost"]["total"] <= 95
     assert (run.state, run.spent, run.reserved) == ("finished", summary["cost"]["total"], 0)
     assert (options.checkpoints / f"{run.id}.safetensors").exists()
+
+
+@pytest.mark.parametrize("budget", [95.0, 110.0, 130.0])
+def test_a_run_whose_budget_ends_has_learned_all_it_paid_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, budget: float
+) -> None:
+    events: list[str] = []
+    learn, train_on = Learner.learn, Learner.train_on
+    monkeypatch.setattr(Learner, "learn", lambda learner, labels: (events.append("learn"), learn(learner, labels)))
+    monkeypatch.setattr(Learner, "train_on", lambda learner: (events.append("on"), train_on(learner)))
+    with store(tmp_path) as (connection, options):
+        train(corridor(), connection, replace(options, budget=budget))
+    assert "learn" in events
+    assert events[-1] == "on"
 
 
 def test_a_budget_that_pays_nothing_ends_the_run_before_its_first_episode(tmp_path: Path) -> None:

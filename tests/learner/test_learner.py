@@ -18,7 +18,7 @@ from learner.networks import ConvNet, DenseNet, PlanningNet
 from learner.policies import Policy, TrainSpec
 from learner.queries import LoLabels
 from learner.types import META, Segment
-from tests.learner.kit import TINY, TINY_LEAN, drawn_mazes, examples
+from tests.learner.kit import TINY, TINY_LEAN, drawn_mazes, examples, segment
 
 maze = MazeDomain()
 
@@ -100,3 +100,19 @@ def test_what_acts_is_the_average_of_what_was_learned() -> None:
     for acting, expected, last in zip(mu.acting.parameters(), average, mu.network.parameters(), strict=True):
         torch.testing.assert_close(acting, expected)
         assert not torch.equal(acting, last)
+
+
+def test_the_segment_that_is_asked_about_is_drawn_by_the_seed_and_the_draw_alone() -> None:
+    sigma = tuple(segment(0) for _ in range(4))
+
+    def drawn(seed: int) -> list[int]:
+        learner = Learner(CorridorDomain(), TINY, seed, threads=1)
+        instance = CorridorDomain().instances("random").train[0]
+        found = []
+        for draw in range(60):
+            learner.start(instance, draw)
+            found.append(learner.draw_one(sigma))
+        return found
+
+    assert drawn(0) == drawn(0) != drawn(1)
+    assert all(5 <= drawn(0).count(h) <= 25 for h in range(4))

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from learner.config import TrainConfig
 from learner.monitoring import EVERY_EPISODE, Monitoring
 from learner.presets import find_preset
-from learner.training import train
+from learner.training import build_learner, train
 from server import wire
 from tests.learner.kit import corridor, examples, history, store
 
@@ -48,6 +48,15 @@ def test_what_is_no_share_and_no_rate_is_refused(values: str) -> None:
         find_preset("lean", f"monitoring.{values}")
 
 
+@pytest.mark.parametrize(
+    "values",
+    [{"algorithm": one} for one in ("h-bc", "naive-h-dagger", "hg-dagger-q", "flat-bc", "h-dqn")] + [{"redraw": True}],
+)
+def test_monitoring_is_refused_where_nothing_is_monitored(values: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match="is for hg-dagger, hg-stagger and flat-dagger"):
+        build_learner(corridor(values="monitoring.share=0.5", **values), threads=1)
+
+
 def asked_and_reported(path: Path, config: TrainConfig) -> tuple[dict[int, list[Any]], list[wire.EpisodeResult]]:
     """What was asked and answered, by episode, and every episode's result."""
     reported: list[wire.EpisodeResult] = []
@@ -61,14 +70,16 @@ def passed(rows: list[Any]) -> bool:
     return any(answer.kind == "inspect_full" and answer.verdict == "pass" for *_, answer, _units in rows)
 
 
-def test_what_is_known_to_succeed_is_not_asked_about_and_not_charged(tmp_path: Path) -> None:
-    asked, reported = asked_and_reported(tmp_path, corridor(values=f"monitoring.share=0.0 {KNOWN_AT_ONCE}"))
+@pytest.mark.parametrize("algorithm", ["hg-dagger", "hg-stagger", "flat-dagger"])
+def test_what_is_known_to_succeed_is_not_asked_about_and_not_charged(tmp_path: Path, algorithm: str) -> None:
+    config = corridor(algorithm=algorithm, values=f"monitoring.share=0.0 {KNOWN_AT_ONCE}", episodes=20)
+    asked, reported = asked_and_reported(tmp_path, config)
     first = next(episode for episode, rows in asked.items() if passed(rows))
-    assert 3 <= first < 11  # otherwise this test shows nothing
+    assert first < 19  # otherwise this test shows nothing
     assert max(asked) == first
-    assert [result.episode for result in reported] == list(range(12))
+    assert [result.episode for result in reported] == list(range(20))
     assert all(result.train_success is not None for result in reported[3:])
-    assert all(result.hi_labels == reported[first].hi_labels for result in reported[first:])
+    assert all(result.lo_labels == reported[first].lo_labels for result in reported[first:])
 
 
 def test_a_share_is_inspected_until_one_fails_and_then_everything_again(tmp_path: Path) -> None:
