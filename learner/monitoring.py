@@ -13,8 +13,8 @@ import numpy as np
 class Monitoring:
     """Sampled monitoring: Dodge's continuous sampling plan CSP-1 (1943), with its clearance number from a confidence.
 
-    Every episode is inspected until so many passed in a row that success is known; then a share of them, drawn at
-    random, until one fails.
+    Every episode is inspected until so many passed in a row that success counts as known; then a share of them, drawn
+    at random, until one fails. The confidence is of one such row under one policy, not of a whole run.
     """
 
     share: float = 1.0  # of the episodes, once success is known; 1: every one, as Algorithm 2 has it

@@ -29,7 +29,7 @@ class TrainSpec:
     passes: int = 1  # over the buffer in a round,
     least: int = 1024  # but so many rows at least: a small buffer is passed over more often,
     most: int = 6144  # and so many at most
-    idle: int = 0  # rows more, after the expert has been put the next question
+    idle: int = 0  # rows more (`train_on`), after the expert has been put the next question
     dropout: float = 0.5
     weight_decay: float = 0.0
     averaging: float | None = None  # what acts is the average of the weights after each update, decaying at this rate

@@ -31,7 +31,8 @@ class InspectFull:
 class LabelHi:
     """Label_HI(tau_HI): a good subgoal at each s_h. Answer: `tuple[Subgoal, ...]`.
 
-    An expert returns the learner's own choice where it is as good as any.
+    An expert returns the learner's own choice where it is as good as any. Of an episode from its start, or of a part,
+    with what came `before`.
     """
 
     trajectory: Trajectory

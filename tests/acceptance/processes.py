@@ -77,7 +77,7 @@ class ServerProcess:
         return str(json.loads(made)["url"])
 
     def client(self, name: str, role: wire.Role) -> Client:
-        self.clients.append(Client(self.url, self.token(name, role), patience=60))
+        self.clients.append(Client(self.url, self.token(name, role), patience=200))
         return self.clients[-1]
 
     def stop(self) -> None:
