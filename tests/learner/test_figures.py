@@ -26,7 +26,7 @@ from learner.cli import app
 from learner.client import Client
 from learner.config import TrainConfig
 from learner.experiments import plan
-from learner.experiments.figures import archive, make, tables
+from learner.experiments.figures import archive, look, make, tables
 from learner.experiments.figures.data import KINDS
 from learner.experiments.figures.store import read, stored
 from learner.training import train
@@ -347,3 +347,9 @@ def test_the_report_holds_tables_and_figures_and_the_commands_that_make_them(tra
     ]
     drawn(*commands[1].split()[2:])
     assert Path("docs/results.md").read_text().replace("runs.db", "waypost.db") == text
+
+
+@pytest.mark.parametrize("group", [group for group in plan.GROUPS.values() if group.figures], ids=lambda one: one.name)
+def test_no_two_curves_of_a_figure_look_alike(group: plan.Group) -> None:
+    styles = [look.style_of(series) for series in group.series]
+    assert len(set(styles)) == len(styles)

@@ -46,6 +46,7 @@ _DASHED, _DOTTED, _DASH_DOT, _LONG = (0, (5, 2)), (0, (1, 1.2)), (0, (6, 2, 1, 2
 
 _ALGORITHMS = {
     "hg-dagger": Style(_BLUE, "solid", "o"),
+    "hg-stagger": Style(_VERMILLION, _DASHED, "s"),
     "h-bc": Style(_VERMILLION, _DASHED, "s"),
     "flat-dagger": Style(_GREEN, _DASH_DOT, "^"),
     "flat-bc": Style(_PURPLE, _DOTTED, "D"),
@@ -55,7 +56,7 @@ _ALGORITHMS = {
     "flat-dqn": Style(_PURPLE, _DOTTED, "D"),
 }
 _WITH_HEAD_START = Style(_GREEN, _DASH_DOT, "^")
-_WITH_OTHER_VALUES = Style(_SKY, _LONG, "P")
+_WITH_OTHER_VALUES = {"hg-dagger": Style(_SKY, _LONG, "P"), "hg-stagger": Style(_ORANGE, _DASH_DOT, "v")}
 _BESIDE = Style(_BLACK, _DASHED, "o")
 
 KINDS: dict[Kind, tuple[str, Style]] = {
@@ -73,9 +74,10 @@ def style_of(series: Series) -> Style:
     """Return how a series is drawn, the same in every figure."""
     if series.beside:
         return _BESIDE
-    if series.config.values is not None:
-        return _WITH_OTHER_VALUES
-    return _WITH_HEAD_START if series.config.head_start is not None else _ALGORITHMS[series.config.algorithm]
+    algorithm = series.config.algorithm
+    if series.config.values is not None and algorithm in _WITH_OTHER_VALUES:
+        return _WITH_OTHER_VALUES[algorithm]
+    return _WITH_HEAD_START if series.config.head_start is not None else _ALGORITHMS[algorithm]
 
 
 def frame(comparison: Comparison, title: str, panels: int = 1) -> tuple[Figure, list[Axes]]:
