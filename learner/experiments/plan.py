@@ -172,7 +172,6 @@ _LEAN = (
         ("success-by-log-cost",),
         (
             _lean("hg-DAgger", instances="corners"),
-            _lean("hg-DAgger, nothing more assumed", instances="corners", values=_FEWER),
             _paper("corners"),
         ),
         lean=True,
