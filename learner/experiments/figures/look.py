@@ -162,3 +162,9 @@ def log_axis(axis: Any, what: str) -> None:
     axis.axes.set_xscale("log")
     axis.axes.set_xlim(left=100)
     count_axis(axis, what)
+
+    def between(value: float, _: int | None) -> str:
+        low, high = axis.get_view_interval()
+        return f"{value:,.0f}" if high < 10 * low else ""  # there is room for them
+
+    axis.set_minor_formatter(FuncFormatter(between))
