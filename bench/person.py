@@ -57,9 +57,7 @@ def answered(client: Client, run: str) -> list[wire.Query]:
     """Return the answered queries of a run, in the order of the answers."""
     queries: list[wire.Query] = []
     cursor = 0
-    while page := client.answers(run, cursor):
-        if not page.queries:
-            break
+    while (page := client.answers(run, cursor)).queries:
         queries, cursor = queries + page.queries, page.cursor
     return queries
 

@@ -142,10 +142,6 @@ class Driver:
                     self._apply(self._open.popleft())
                 else:
                     self._wait()
-            self._learner.train_on()
-        except BudgetExhausted:
-            self._learner.train_on()
-            raise
         finally:
             for episode in self._open:
                 episode.withdraw()

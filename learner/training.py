@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from learner import checkpoints, stage
-from learner.algorithms import find_algorithm
+from learner.algorithms import ALGORITHMS, find_algorithm
 from learner.bot import Bot, BotSettings
 from learner.client import Client
 from learner.config import START, Progress, TrainConfig
@@ -97,7 +97,8 @@ def build_learner(config: TrainConfig, threads: int | None) -> tuple[Learner, In
         raise ValueError(f"{config.algorithm} has an expert to learn from: leave out --head-start")
     preset = find_preset(config.preset, config.values)
     if preset.monitoring.share < 1 and (config.redraw or not algorithm.monitored):
-        raise ValueError("monitoring.share below 1 is for hg-dagger, hg-stagger and flat-dagger, without --redraw")
+        monitored = ", ".join(name for name, one in ALGORITHMS.items() if one.monitored)
+        raise ValueError(f"monitoring.share below 1 is for {monitored}, without --redraw")
     if config.warm_start is not None:
         preset = replace(preset, warm_start=config.warm_start)
     domain = find_domain(config.domain)
@@ -155,6 +156,7 @@ def train(
             driver.train()
         except BudgetExhausted:
             ended = "budget exhausted"
+    learner.train_on()  # no further question comes, with which to do it
     save(driver.progress, weights_only=True)
     return _summary(config, learner, connection.learner, run.id, ended, time.monotonic() - began)
 
