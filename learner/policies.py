@@ -36,6 +36,17 @@ class TrainSpec:
     every_episode: bool = False  # rather than only after episodes that added to the buffer
     bf16: bool = True  # mixed precision where the processor has bf16 arithmetic
 
+    def __post_init__(self) -> None:
+        """Refuse numbers with which nothing could be trained.
+
+        Raises:
+            ValueError: with what to write instead.
+        """
+        if min(self.batch, self.most) < 1 or min(self.passes, self.least, self.idle) < 0:
+            raise ValueError("training takes batch and most from 1 on, and passes, least and idle from 0 on")
+        if self.averaging is not None and not 0 <= self.averaging < 1:
+            raise ValueError("training takes an averaging from 0 to below 1, or null")
+
 
 @dataclass(frozen=True)
 class Outputs:

@@ -1,6 +1,7 @@
 """Train(policy, D): what is learned, from which labels, and that the same seed learns the same."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -213,6 +214,15 @@ def test_policies_train_on_by_the_rows_of_their_preset(idle: int) -> None:
     before = weights(trained)
     trained.train_on(data(50))
     assert all(equal(before, weights(trained))) == (idle == 0)
+
+
+@pytest.mark.parametrize(
+    "number",
+    [{"batch": 0}, {"most": 0}, {"least": -1}, {"passes": -1}, {"idle": -1}, {"averaging": 1.0}, {"averaging": -0.1}],
+)
+def test_numbers_with_which_nothing_could_be_trained_are_refused(number: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match="training takes"):
+        TrainSpec(**number)
 
 
 def test_policies_train_on_once_after_an_episode_and_only_those_it_taught() -> None:

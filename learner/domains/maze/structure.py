@@ -95,7 +95,8 @@ FLAT_VIEW = View((3, 2 * SIZE - 1, 2 * SIZE - 1), _all)  # no grid: a hundred st
 def relabeled(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Iterator[Relabeled]:
     """Yield what is right on the way from each place of a labeled way to each other one, there and back.
 
-    A part of a shortest way is a shortest way, and so is the way back.
+    A part of a shortest way is a shortest way, and so is the way back. An episode that strayed from it, but for rooms
+    that the expert found wrong, says what is no longer than the way it went.
     """
     lava = trajectory[0].start.observation[1] == LAVA
     for cells, subgoals in _ways(trajectory, good_subgoals, lava):
