@@ -200,6 +200,30 @@ def test_charts_and_tables_are_downloaded(open_page: Open, learner: Learner) -> 
     assert waiting.value.suggested_filename == f"{run}-curves.csv"
 
 
+def test_reading_one_chart_as_a_table_leaves_its_neighbours_drawing_beside_its_own(
+    open_page: Open, learner: Learner
+) -> None:
+    run = learner.create_run("two charts")
+    learner.ask(run, ask("inspect_full"))
+    worker = open_page(f"/work?run={run}")
+    wait_for_heading(worker, ask("inspect_full")["question"])
+    worker.keyboard.press("p")
+    wait_for_heading(worker, "Waiting for the learner")
+    learner.report(run, [False, True])
+    page = open_page(f"/runs/{run}")
+
+    def tops() -> list[float]:
+        drawings = [page.get_by_role("slider", name=name) for name in ("Success on unseen", "Cost so far")]
+        return [drawing.evaluate("one => one.getBoundingClientRect().top + scrollY") for drawing in drawings]
+
+    expect(page.get_by_role("slider")).to_have_count(2)
+    (top, beside) = tops()
+    assert beside == top
+    page.get_by_text("As a table").first.click()
+    expect(page.get_by_role("row", name="1 50%")).to_be_visible()
+    assert tops() == [top, top]
+
+
 def test_names_are_text(open_page: Open, learner: Learner) -> None:
     name = "<img src=x onerror=alert(1)>"
     run = learner.create_run(name)
