@@ -75,6 +75,7 @@ class Labels:
     rows: dict[PolicyKey, list[Row]] = field(default_factory=dict)
     transitions: dict[PolicyKey, list[Transition]] = field(default_factory=dict)
     labeled: list[tuple[Trajectory, tuple[Subgoal, ...]]] = field(default_factory=list)  # on the HI level
+    demonstrated: list[Trajectory] = field(default_factory=list)
 
     def append_hi(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> None:
         """D_HI <- D_HI + {(s_h, g*_h)}."""
@@ -83,9 +84,12 @@ class Labels:
         rows += [Row(s.start.observation, g) for s, g in zip(trajectory, good_subgoals, strict=True)]
 
     def relabel(self, domain: Structured) -> None:
-        """D_HI <- D_HI + what the labels of it say of other tasks, as the domain has it."""
+        """D <- D + what the labels of D_HI, and the demonstrations, say of other tasks, as the domain has it."""
         rows = self.rows.setdefault(META, [])
         rows += [Row(o, g) for sigma, good in self.labeled for o, g in domain.relabeled(sigma, good)]
+        for demonstration in self.demonstrated:
+            for segment in domain.retraced(demonstration):
+                self._append_demonstrated(segment)
 
     def append_lo(self, segment: Segment, labels: LoLabels) -> None:
         """D_g <- D_g + {(s, a*, omega*)}, up to the state where the segment should have ended."""
@@ -102,10 +106,14 @@ class Labels:
 
     def append_demonstration(self, demonstration: Trajectory) -> None:
         """Lines 5-7 of Algorithm 1: each segment's labels are what the expert did."""
+        self.demonstrated.append(demonstration)
         for segment in demonstration:
-            terminations = (*(False for _ in segment.actions), True)
-            self.append_lo(segment, LoLabels(segment.actions, terminations))
+            self._append_demonstrated(segment)
         self.append_hi(demonstration, [s.subgoal for s in demonstration if s.subgoal is not None])
+
+    def _append_demonstrated(self, segment: Segment) -> None:
+        terminations = (*(False for _ in segment.actions), True)
+        self.append_lo(segment, LoLabels(segment.actions, terminations))
 
     def append_experience(self, key: PolicyKey, transitions: Iterable[Transition]) -> None:
         """D_g <- D_g + tau_h (Algorithm 3, lines 20 and 22): what Q_g, or another Q-function, learns from."""

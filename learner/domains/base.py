@@ -14,7 +14,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from learner.types import Action, Outcome, Subgoal, Trajectory
+from learner.types import Action, Outcome, Segment, Subgoal, Trajectory
 
 
 @dataclass(frozen=True)
@@ -149,6 +149,12 @@ class Structured(Protocol):
         """Return what labels of a trajectory say of other tasks, begun and ended elsewhere on its way.
 
         It may assume what Algorithm 2 does not: that ways can be gone back, say.
+        """
+
+    def retraced(self, demonstration: Trajectory) -> Iterable[Segment]:
+        """Return what a demonstration shows of other tasks: segments as an expert would carry them out.
+
+        It may assume as much as `relabeled`.
         """
 
 

@@ -30,7 +30,7 @@ class Preset:
     views: bool = False  # whether policies are given the domain's views, rather than all that there is to see
     planning: int | None = None  # where a view shows places, a network plans over them, by so many features of each
     repeat_penalty: float = 0.0  # off the logit of a subgoal, for each time it was chosen in the same place before
-    relabeling: bool = False  # whether labels are also learned from as labels of other tasks
+    relabeling: bool = False  # whether labels and demonstrations are also learned from as those of other tasks
     monitoring: Monitoring = EVERY_EPISODE  # which episodes the expert is asked about
 
     def __post_init__(self) -> None:

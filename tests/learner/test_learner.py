@@ -9,7 +9,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from learner.datasets import Labels
+from learner.datasets import UNLABELED, Labels
 from learner.domains.corridor import CorridorDomain
 from learner.domains.maze.domain import MazeDomain
 from learner.domains.maze.structure import LO_VIEW
@@ -79,6 +79,20 @@ def test_a_preset_decides_whether_labels_are_learned_from_as_labels_of_other_tas
     labels.append_hi(sigma, [segment.subgoal or 0 for segment in sigma])
     learner.learn(labels)
     assert (len(learner.data[META]) > len(sigma)) == relabeling
+
+
+@pytest.mark.parametrize("relabeling", [True, False])
+def test_a_preset_decides_whether_demonstrations_are_learned_from_as_those_of_other_tasks(relabeling: bool) -> None:
+    learner = learned(relabeling=relabeling, symmetries=False, tied=False)
+    start = learner.start(maze.instances("random").train[0], 0)
+    go_to_target, down = maze.subgoals.index("go_to_target"), maze.actions.index("down")
+    demonstration = (Segment(go_to_target, (start, learner.simulator.step(down)), (down,), terminated=True),)
+    labels = Labels()
+    labels.append_demonstration(demonstration)
+    learner.learn(labels)
+    there, back = [(down, UNLABELED), (UNLABELED, 1)], [(maze.actions.index("up"), UNLABELED), (UNLABELED, 1)]
+    rows = [tuple(row) for row in learner.data[go_to_target].labels.tolist()]
+    assert rows == (there + there + back if relabeling else there)
 
 
 def test_what_acts_is_the_average_of_what_was_learned() -> None:

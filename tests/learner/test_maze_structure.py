@@ -1,5 +1,7 @@
 """What the maze tells a learner of its structure is true of it."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -20,11 +22,11 @@ from learner.domains.maze.maze import (
     wall_beside,
     walls,
 )
-from learner.domains.maze.structure import FLAT_VIEW, HI_VIEW, LO_VIEW, relabeled
+from learner.domains.maze.structure import FLAT_VIEW, HI_VIEW, LO_VIEW, relabeled, retraced
 from learner.experts.oracle import OracleExpert
 from learner.simulator import Simulator
 from learner.translation import Translator
-from learner.types import Segment, Subgoal, Trajectory
+from learner.types import Action, Segment, Subgoal, Trajectory
 from tests.learner.kit import drawn_mazes, examples, free_cells, mazes, neighbours, solved
 
 domain = MazeDomain()
@@ -55,12 +57,16 @@ def demonstration(maze: Maze) -> Trajectory:
     return tuple(segment for segment in answer if isinstance(segment, Segment))
 
 
+def maze_in(picture: np.ndarray) -> Maze:
+    """The maze that a picture shows, begun where the agent is."""
+    here, target = (cell_of(np.argwhere(picture[k] == what)[0].tolist()) for k, what in ((0, AGENT), (2, TARGET)))
+    return Maze(picture[1] == 1, here, target)
+
+
 def is_good(picture: np.ndarray, subgoal: Subgoal) -> bool:
     """Whether the oracle finds a subgoal good in what a picture shows."""
-    ((row, column),) = np.argwhere(picture[0] == AGENT)
-    ((goal_row, goal_column),) = np.argwhere(picture[2] == TARGET)
-    maze = Maze(picture[1] == 1, (int(row), int(column)), (int(goal_row), int(goal_column)))
-    return subgoal in domain.oracle.good_subgoals(maze.to_json(), [int(row), int(column)])
+    maze = maze_in(picture)
+    return subgoal in domain.oracle.good_subgoals(maze.to_json(), list(maze.start))
 
 
 def said_of_other_tasks(maze: Maze) -> list[tuple[np.ndarray, Subgoal]]:
@@ -91,6 +97,84 @@ def test_a_way_around_lava_before_a_door_says_nothing_of_the_way_through_it() ->
     assert domain.subgoals[first.subgoal or 0] == "south"
     assert (7, 8) in [tuple(state.view) for state in first.states]
     assert all(is_good(picture, subgoal) for picture, subgoal in said_of_other_tasks(maze))
+
+
+def goes_as_the_expert_would(segment: Segment) -> bool:
+    """Whether the oracle takes the same way to the same subgoal, in what the segment shows, and ends there."""
+    maze, subgoal = maze_in(segment.start.observation), segment.subgoal
+    assert subgoal is not None
+    view, views = maze.to_json(), [state.view for state in segment.states]
+    return (
+        subgoal in domain.oracle.good_subgoals(view, views[0])
+        and all(
+            action in domain.oracle.good_actions(view, views[0], here, subgoal)
+            for action, here in zip(segment.actions, views, strict=False)
+        )
+        and [domain.oracle.reached(view, views[0], here, subgoal) for here in views[1:]]
+        == [False] * (len(views) - 2) + [True]
+    )
+
+
+@examples
+@given(mazes())
+def test_what_a_demonstration_shows_of_other_tasks_is_what_the_expert_would_do(maze: Maze) -> None:
+    assert all(goes_as_the_expert_would(segment) for segment in retraced(demonstration(maze)))
+
+
+@examples
+@given(drawn_mazes())
+def test_a_demonstration_shows_the_way_back_and_the_way_to_every_cell_of_its_rooms(maze: Maze) -> None:
+    sigma = demonstration(maze)
+    way = [sigma[0].start.view] + [state.view for segment in sigma for state in segment.states[1:]]
+    n_rooms = len({room_of(tuple(cell)) for cell in way} - {None})
+    n_inside = sum(room_of(tuple(cell)) is not None for cell in way)
+    subgoals = [segment.subgoal for segment in retraced(sigma)]
+    assert sum(subgoal != GO_TO_TARGET for subgoal in subgoals) == n_rooms - 1
+    assert subgoals.count(GO_TO_TARGET) == 2 * (n_inside - n_rooms)
+
+
+@examples
+@given(mazes())
+def test_a_way_back_looks_as_it_does_to_who_goes_it(maze: Maze) -> None:
+    sigma = demonstration(maze)
+    there = [sigma[0].start.view] + [state.view for segment in sigma for state in segment.states[1:]]
+    for segment in retraced(sigma):
+        shown = maze_in(segment.states[-1].observation)
+        for way in (there, there[::-1]):
+            if segment.start.view not in way[: way.index(segment.states[-1].view)]:
+                continue  # it is of the other direction
+            env = MazeEnv()
+            seen, _ = env.reset(options={"instance": Maze(maze.lava, cell_of(way[0]), shown.goal)})
+            pictures = {tuple(way[0]): seen}
+            for here, next_ in pairwise(way[: way.index(segment.states[-1].view) + 1]):
+                step = np.subtract(next_, here)
+                action = next(a for a in range(4) if (np.subtract(moved(cell_of(here), a), here) == step).all())
+                pictures[tuple(next_)] = env.step(np.int64(action))[0]
+            assert all((pictures[tuple(state.view)] == state.observation).all() for state in segment.states)
+
+
+def walked(maze: Maze, actions: list[Action], subgoal: Subgoal) -> Trajectory:
+    """A demonstration of one segment, by somebody who makes mistakes."""
+    simulator = Simulator(domain)
+    states = [simulator.reset(maze)]
+    states += [simulator.step(action) for action in actions]
+    return (Segment(subgoal, tuple(states), tuple(actions), terminated=True),)
+
+
+def test_a_demonstration_that_crosses_itself_or_ends_in_lava_shows_no_task_that_ends_before_its_end() -> None:
+    lava = closed_rooms()
+    lava[14, 4] = False
+    maze = Maze(lava.copy(), (14, 3), (15, 7))
+    _, down, left, right = range(4)
+    to_and_fro = [left, right, right, right, left, right, right, right, right]  # through the door, and into the wall
+    found = list(retraced(walked(maze, to_and_fro, domain.subgoals.index("east"))))
+    assert found
+    for segment in found:
+        pictures = [state.observation for state in segment.states]
+        assert not any((picture[0] == AGENT)[picture[2] == TARGET].any() for picture in pictures[:-1])
+        assert not any(lava[cell_of(state.view)] for state in segment.states)
+    lava[15, 3] = True
+    assert not list(retraced(walked(Maze(lava, (14, 3), (15, 7)), [down], GO_TO_TARGET)))
 
 
 def clumsy(maze: Maze, seed: int) -> Trajectory:

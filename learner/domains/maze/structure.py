@@ -4,7 +4,7 @@ None of it is the paper's, and the `paper` preset uses none.
 """
 
 from collections.abc import Iterator, Sequence
-from itertools import groupby
+from itertools import groupby, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from learner.domains.base import Grid, Relabeled, View
 from learner.domains.maze.env import AGENT, LAVA, TARGET, TRAIL
 from learner.domains.maze.maze import GO_TO_TARGET, MOVES, ROOMS, SIZE, Cell, Room, cell_of, room_beside, room_of, walls
-from learner.types import Segment, Subgoal, Trajectory
+from learner.types import Action, Segment, State, Subgoal, Trajectory
 
 Picture = NDArray[np.float32]
 
@@ -106,6 +106,53 @@ def relabeled(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Itera
                     yield _picture(lava, here, target), subgoals[i] if j > i else subgoals[i - 1] ^ BACK
             for target in _others(lava, here):
                 yield _picture(lava, here, target), GO_TO_TARGET
+
+
+def retraced(demonstration: Trajectory) -> Iterator[Segment]:
+    """Yield the way of a demonstration gone back, room by room, and the way to each of its cells as to a target.
+
+    A cell is a target of who has come into its room, there and back. The trail is of all that was gone until then.
+    """
+    lava = demonstration[0].start.observation[1] == LAVA
+    there = [cell_of(demonstration[0].start.view)]
+    there += [cell_of(state.view) for segment in demonstration for state in segment.states[1:]]
+    if lava[there[-1]]:
+        there.pop()
+    back = there[::-1]
+    for stay, beyond in pairwise(_stays(back)):
+        yield from _gone(lava, back[: beyond[0] + 1], stay[0], back[-1], _action(back, beyond[0]))
+    for way in (there, back):
+        for entered, *others in _stays(way):
+            for cell in others:
+                yield from _gone(lava, way[: cell + 1], entered, way[cell], GO_TO_TARGET)
+
+
+def _stays(way: Sequence[Cell]) -> list[list[int]]:
+    """Return where on a way it is in its first room, in its second, and so on."""
+    inside = [i for i, cell in enumerate(way) if room_of(cell) is not None]
+    return [list(stay) for _, stay in groupby(inside, lambda i: room_of(way[i]))]
+
+
+def _gone(
+    lava: NDArray[np.bool_], way: Sequence[Cell], first: int, target: Cell, subgoal: Subgoal
+) -> Iterator[Segment]:
+    """Yield the last part of a way to a target, as a segment; nothing if the target lies on the way: it ends there."""
+    if target in way[:-1]:
+        return
+    states, picture = [], _picture(lava, way[0], target)
+    for i, cell in enumerate(way):
+        picture[0], picture[1][cell] = 0, TRAIL
+        picture[0][cell] = AGENT
+        if i >= first:
+            states.append(State(picture.copy(), list(cell)))
+    actions = tuple(_action(way, i) for i in range(first + 1, len(way)))
+    yield Segment(subgoal, tuple(states), actions, terminated=True)
+
+
+def _action(way: Sequence[Cell], i: int) -> Action:
+    """Return the step to the i-th cell of a way."""
+    (row, column), (to_row, to_column) = way[i - 1], way[i]
+    return MOVES.index((to_row - row, to_column - column))
 
 
 def _ways(
