@@ -73,7 +73,8 @@ def plain_loop(data: Dataset, rows: int, bf16: bool) -> Callable[[], None]:
         network = network.to(memory_format=torch.channels_last)
     optimizer = torch.optim.Adam(network.parameters(), lr=SPEC.learning_rate)
     criterion = nn.CrossEntropyLoss()
-    pictures, choices = data.observations.clone(), data.labels[:, 0].clone()
+    pictures, labels = data[range(len(data))]
+    choices = labels[:, 0]
 
     def train() -> None:
         network.train()
@@ -89,7 +90,8 @@ def plain_loop(data: Dataset, rows: int, bf16: bool) -> Callable[[], None]:
 
 def imitation(data: Dataset, folder: Path) -> Peer:
     """Hand the data over to the library that is trained beside ours."""
-    np.savez(folder / "data.npz", observations=data.observations.numpy(), labels=data.labels[:, 0].numpy())
+    pictures, labels = data[range(len(data))]
+    np.savez(folder / "data.npz", observations=pictures.numpy(), labels=labels[:, 0].numpy())
     return Peer(
         "behavioral_cloning",
         data=str(folder / "data.npz"),
@@ -156,7 +158,7 @@ def print_latency(policy: Policy, data: Dataset) -> None:
     print("\n| acting | Policy, ms | plain torch, ms | Policy beside it |")
     print("|---|---|---|---|")
     for batch, calls in ((1, 300), (256, 10)):
-        pictures = data.observations[:batch].numpy()
+        pictures = data[range(batch)][0].numpy()
         inputs = torch.from_numpy(pictures)
 
         def act(pictures: np.ndarray = pictures, calls: int = calls) -> None:

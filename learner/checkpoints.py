@@ -18,7 +18,6 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save
 
 from learner.config import Progress, TrainConfig
-from learner.datasets import Dataset
 from learner.learner import Learner
 
 Tensors = dict[str, torch.Tensor]
@@ -91,7 +90,7 @@ def load(path: Path, learner: Learner) -> None:
             if policy.average is not None:
                 policy.network.load_state_dict(_below(tensors, f"trained.{key}."))
                 policy.average.n_averaged.copy_(tensors[f"averaged.{key}"])
-            learner.data[key] = Dataset.of(tensors[f"data.{key}.observations"], tensors[f"data.{key}.labels"])
+            learner.data[key].load(_below(tensors, f"data.{key}."))
     for key, q in learner.q.items():
         if f"rng.{key}" in tensors:
             q.target.load_state_dict(_below(tensors, f"target.{key}."))
@@ -121,7 +120,7 @@ def _training_state(learner: Learner) -> Tensors:
             tensors |= {f"optimizer.{key}.{index}.{name}": tensor for name, tensor in state.items()}
         tensors[f"rng.{key}"] = policy.rng.get_state()
     for key, data in learner.data.items():
-        tensors |= {f"data.{key}.observations": data.observations, f"data.{key}.labels": data.labels}
+        tensors |= {f"data.{key}.{name}": tensor for name, tensor in data.tensors().items()}
     for key, policy in learner.imitators.items():
         if policy.average is not None:
             tensors |= {f"trained.{key}.{name}": tensor for name, tensor in policy.network.state_dict().items()}

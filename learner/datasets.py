@@ -5,9 +5,11 @@ A buffer holds rows (observation, choice, termination). The choice is a subgoal 
 segment should have ended, and beta_g at a segment's first state, where it is never asked (docs/paper.md, deviation 4).
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
+import lz4.block
 import numpy as np
 import torch
 
@@ -29,43 +31,46 @@ class Row:
 
 
 class Dataset:
-    """A growing buffer of rows, kept as tensors with room to spare."""
+    """A growing buffer of rows.
+
+    Observations are kept compressed, and unpacked as fast as they could be copied. Pictures shrink to a thirtieth, so
+    hundreds of demonstrations, turned and mirrored, fit a laptop.
+    """
 
     def __init__(self, observation_shape: tuple[int, ...]) -> None:
-        self._observations = torch.empty((256, *observation_shape))
-        self._labels = torch.empty((256, 2), dtype=torch.int64)
-        self._size = 0
-
-    @classmethod
-    def of(cls, observations: torch.Tensor, labels: torch.Tensor) -> "Dataset":
-        """Return a buffer that holds these rows."""
-        dataset = cls(tuple(observations.shape[1:]))
-        if len(labels):
-            dataset._observations, dataset._labels, dataset._size = observations, labels, len(labels)
-        return dataset
+        self._shape = observation_shape
+        self._observations: list[bytes] = []
+        self._labels: list[tuple[int, int]] = []  # choice, termination
 
     def __len__(self) -> int:
-        return self._size
+        return len(self._labels)
 
-    @property
-    def observations(self) -> torch.Tensor:
-        """float32[N, observation shape]."""
-        return self._observations[: self._size]
-
-    @property
-    def labels(self) -> torch.Tensor:
-        """int64[N, 2]: choice, termination."""
-        return self._labels[: self._size]
+    def __getitem__(self, rows: Sequence[int]) -> tuple[torch.Tensor, torch.Tensor]:
+        """Return observations float32[B, observation shape] and labels int64[B, 2]: choice, termination."""
+        observations = np.empty((len(rows), *self._shape), np.float32)
+        for one, row in zip(observations, rows, strict=True):
+            one[...] = np.frombuffer(lz4.block.decompress(self._observations[row]), np.float32).reshape(self._shape)
+        labels = torch.tensor([self._labels[row] for row in rows], dtype=torch.int64).reshape(-1, 2)
+        return torch.from_numpy(observations), labels
 
     def append(self, rows: Iterable[Row]) -> None:
         """Add rows at the end."""
         for row in rows:
-            if self._size == len(self._observations):
-                self._observations = torch.cat([self._observations, torch.empty_like(self._observations)])
-                self._labels = torch.cat([self._labels, torch.empty_like(self._labels)])
-            self._observations[self._size] = torch.from_numpy(row.observation)
-            self._labels[self._size] = torch.tensor((row.choice, row.termination))
-            self._size += 1
+            self._observations.append(lz4.block.compress(np.ascontiguousarray(row.observation, np.float32)))
+            self._labels.append((row.choice, row.termination))
+
+    def tensors(self) -> dict[str, torch.Tensor]:
+        """Return all rows: the compressed observations uint8 one after the other, their sizes int64[N], the labels."""
+        packed = np.frombuffer(b"".join(self._observations), np.uint8)
+        sizes = torch.tensor([len(one) for one in self._observations], dtype=torch.int64)
+        labels = torch.tensor(self._labels, dtype=torch.int64).reshape(-1, 2)
+        return {"observations": torch.from_numpy(packed.copy()), "sizes": sizes, "labels": labels}
+
+    def load(self, tensors: Mapping[str, torch.Tensor]) -> None:
+        """Replace all rows by those of `tensors`."""
+        packed, ends = tensors["observations"].numpy().tobytes(), tensors["sizes"].cumsum(0).tolist()
+        self._observations = [packed[first:end] for first, end in pairwise([0, *ends])]
+        self._labels = [(choice, termination) for choice, termination in tensors["labels"].tolist()]
 
 
 @dataclass

@@ -110,9 +110,10 @@ class Policy:
         order = torch.cat([torch.randperm(len(data), generator=self.rng) for _ in range(passes)])[:n_rows]
         self.network.train()
         for rows in torch.split(order, spec.batch):
+            observations, labels = data[rows.tolist()]
             with mixed_precision(self.bf16):
-                out = self.network(laid_out(data.observations[rows]))
-            loss = self._loss(out.float(), data.labels[rows].to(DEVICE))
+                out = self.network(laid_out(observations))
+            loss = self._loss(out.float(), labels.to(DEVICE))
             self.optimizer.zero_grad()
             torch.autograd.backward(loss)
             self.optimizer.step()

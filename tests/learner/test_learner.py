@@ -91,8 +91,9 @@ def test_a_preset_decides_whether_demonstrations_are_learned_from_as_those_of_ot
     labels.append_demonstration(demonstration)
     learner.learn(labels)
     there, back = [(down, UNLABELED), (UNLABELED, 1)], [(maze.actions.index("up"), UNLABELED), (UNLABELED, 1)]
-    rows = [tuple(row) for row in learner.data[go_to_target].labels.tolist()]
-    assert rows == (there + there + back if relabeling else there)
+    learned_from = learner.data[go_to_target]
+    _, labels_of_rows = learned_from[range(len(learned_from))]
+    assert [tuple(row) for row in labels_of_rows.tolist()] == (there + there + back if relabeling else there)
 
 
 def test_what_acts_is_the_average_of_what_was_learned() -> None:

@@ -48,10 +48,10 @@ def test_a_policy_with_terminations_learns_both_of_a_separable_task() -> None:
     learned = policy()
     for _ in range(12):
         learned.train(data(200))
-    test = data(200, seed=1)
-    says = learned(test.observations.numpy())
-    assert (says.logits.argmax(1) == test.labels[:, 0].numpy()).mean() > 0.95
-    assert ((says.termination > 0.5) == test.labels[:, 1].numpy()).mean() > 0.95
+    observations, labels = data(200, seed=1)[range(200)]
+    says = learned(observations.numpy())
+    assert (says.logits.argmax(1) == labels[:, 0].numpy()).mean() > 0.95
+    assert ((says.termination > 0.5) == labels[:, 1].numpy()).mean() > 0.95
 
 
 def test_rows_without_any_label_teach_nothing() -> None:
