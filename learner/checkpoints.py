@@ -72,15 +72,21 @@ def load(path: Path, learner: Learner) -> None:
     """Put a checkpoint's weights, and its training state if it has one, into a learner of the same configuration.
 
     Raises:
-        ValueError: its networks are others than the learner's.
+        ValueError: its networks are others than the learner's, or another version of Waypost wrote it.
     """
     with safe_open(path, "pt") as file:
         tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118 (no mapping)
+    try:
+        _restore(tensors, learner)
+    except (KeyError, RuntimeError) as error:
+        raise ValueError(
+            f"{path} does not fit this version of Waypost; go on with the version that wrote it, or begin anew"
+        ) from error
+
+
+def _restore(tensors: Tensors, learner: Learner) -> None:
     for key, policy in learner.learned.items():
-        try:
-            policy.acting.load_state_dict(_below(tensors, f"policy.{key}."))
-        except RuntimeError as error:
-            raise ValueError(f"{path} does not fit the networks that this version of Waypost builds") from error
+        policy.acting.load_state_dict(_below(tensors, f"policy.{key}."))
         if f"rng.{key}" in tensors:
             policy.rng.set_state(tensors[f"rng.{key}"])
             _load_optimizer(policy.optimizer, _below(tensors, f"optimizer.{key}."))

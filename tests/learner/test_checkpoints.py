@@ -8,7 +8,7 @@ import pytest
 import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from safetensors.torch import save_file
+from safetensors.torch import load_file, save_file
 
 from learner import checkpoints
 from learner.checkpoints import Header, weights_hash
@@ -172,6 +172,14 @@ def test_a_checkpoint_of_other_networks_is_refused_with_a_sentence(path: Path) -
     larger = replace(TINY, network=NetworkSpec((4,), 99))
     with pytest.raises(ValueError, match="does not fit"):
         checkpoints.load(path, Learner(CorridorDomain(), larger, 0, threads=1))
+
+
+def test_a_run_that_another_version_began_is_refused_with_a_sentence(path: Path) -> None:
+    checkpoints.write(path, trained(2), HEADER, weights_only=False)
+    written = {name: tensor for name, tensor in load_file(path).items() if not name.endswith(".sizes")}
+    save_file(written, path, {"waypost": "{}"})
+    with pytest.raises(ValueError, match="does not fit this version of Waypost"):
+        checkpoints.load(path, learner())
 
 
 def test_the_hash_changes_with_any_single_weight() -> None:
