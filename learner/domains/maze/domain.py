@@ -9,7 +9,8 @@ from learner.domains.maze.files import load_mazes
 from learner.domains.maze.generator import KINDS, maze_set, with_doors_redrawn
 from learner.domains.maze.maze import ACTIONS, GO_TO_TARGET, ROOMS, SIZE, SUBGOALS, Maze, cell_of, room_beside, room_of
 from learner.domains.maze.oracle import MazeOracle
-from learner.domains.maze.structure import FLAT_VIEW, HI_VIEW, LO_VIEW, relabeled, retraced
+from learner.domains.maze.relabeling import relabeled, retraced
+from learner.domains.maze.structure import FLAT_VIEW, HI_VIEW, LO_VIEW
 from learner.domains.maze.symmetries import symmetries
 from learner.types import Outcome, Subgoal
 
