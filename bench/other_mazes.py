@@ -93,6 +93,7 @@ def main() -> None:
         drawn = draw(doors, least, number)
         sets[name] = [next(drawn) for _ in range(N)]
         if arguments.save is not None:
+            arguments.save.mkdir(parents=True, exist_ok=True)
             save_mazes(arguments.save / f"{name.replace(', ', '-').replace(' ', '-')}.npz", sets[name])
     print("| mazes | shortest path, median (most) | success |")
     print("|---|---|---|")
