@@ -52,6 +52,8 @@ lint-python: $(VENV)/.dev
 
 lint-web: web/node_modules/.stamp $(VENV)/.dev
 	@cd web && ../$(WITH_NODE) npm run --silent check
+	@cd web && ../$(WITH_NODE) npm run --silent lint
+	@cd web && ../$(WITH_NODE) npm run --silent layers
 	@cd web && ../$(WITH_NODE) npm run --silent format:check
 	@cd web && ../$(WITH_NODE) npm run --silent types:check
 

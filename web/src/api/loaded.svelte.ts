@@ -1,25 +1,67 @@
-import { isAborted, Refused, wordsOf } from './client';
+// What a view loads from the server: the value, or why there is none.
+import { isAborted, Refused, Unreachable, wordsOf } from './client';
 
-/** Something from the server: what came last stays while the next is under way, so nothing flickers. */
+interface Options {
+  /** The view loads again without being asked to, and says so. */
+  readonly live?: boolean;
+}
+
+/** A value from the server. The last value stays while the next one is loaded, so that nothing flickers. */
 export class Loaded<T> {
   value: T | null = $state.raw(null);
-  problem: string | null = $state(null);
-  isMissing = $state(false);
+  problem: string | null = $state(null); // what to tell the person
+  status: number | null = $state(null); // of the server's refusal
+  readonly #fetch: () => Promise<T>;
+  readonly #unreachable: string;
   #turn = 0;
 
-  /** Load; of several at once the last one asked for counts. */
-  async load(call: () => Promise<T>): Promise<void> {
+  constructor(fetch: () => Promise<T>, { live = false }: Options = {}) {
+    this.#fetch = fetch;
+    this.#unreachable = live
+      ? 'The server cannot be reached. The page tries again automatically.'
+      : 'The server cannot be reached.';
+  }
+
+  get isMissing(): boolean {
+    return this.status === 404;
+  }
+
+  /** Load the value and return whether that worked. Of several loads at once, only the last one counts. */
+  async load(): Promise<boolean> {
     const turn = ++this.#turn;
     try {
-      const value = await call();
-      if (turn !== this.#turn) return;
-      this.value = value;
-      this.problem = null;
-      this.isMissing = false;
+      const value = await this.#fetch();
+      if (turn === this.#turn) {
+        this.value = value;
+        this.#settle(null, null);
+      }
+      return true;
     } catch (error) {
-      if (turn !== this.#turn || isAborted(error)) return;
-      this.isMissing = error instanceof Refused && error.status === 404;
-      this.problem = wordsOf(error);
+      if (turn === this.#turn && !isAborted(error)) this.#fail(error, this.#unreachable);
+      return false;
     }
+  }
+
+  /** Change something on the server, then load again. Return whether both worked. */
+  async change(request: () => Promise<unknown>): Promise<boolean> {
+    try {
+      await request();
+    } catch (error) {
+      this.#fail(error, 'The server cannot be reached, so the change may not be saved. Try again.');
+      return false;
+    }
+    return this.load();
+  }
+
+  #fail(error: unknown, unreachable: string): void {
+    this.#settle(
+      error instanceof Unreachable ? unreachable : wordsOf(error),
+      error instanceof Refused ? error.status : null,
+    );
+  }
+
+  #settle(problem: string | null, status: number | null): void {
+    this.problem = problem;
+    this.status = status;
   }
 }

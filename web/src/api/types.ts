@@ -11,7 +11,7 @@ export type Assignment = Schemas['Assignment'];
 export type DemoSegment = Schemas['DemoSegment'];
 export type Costs = Schemas['Costs'];
 export type Curves = Schemas['Curves'];
-export type Lease = Schemas['Lease'];
+export type LeaseRequest = Schemas['Lease'];
 export type Me = Schemas['Me'];
 export type PlayMoves = Schemas['PlayMoves'];
 export type PlayStage = Schemas['PlayStage'];
@@ -24,10 +24,10 @@ export type Run = Schemas['Run'];
 export type Segment = Schemas['Segment'];
 export type AtWork = Schemas['AtWork'];
 export type LedgerEntry = Schemas['LedgerEntry'];
-export type LedgerPage = Schemas['LedgerPage'];
+export type PagedLedger = Schemas['LedgerPage'];
 export type PastAssignment = Schemas['PastAssignment'];
 export type QueryHistory = Schemas['QueryHistory'];
-export type QueryPage = Schemas['QueryPage'];
+export type PagedQueries = Schemas['QueryPage'];
 export type QueryRow = Schemas['QueryRow'];
 export type RunList = Schemas['RunList'];
 export type Verdict = Schemas['InspectAnswer']['verdict'];
@@ -54,13 +54,3 @@ export type AnswerableKind = (typeof ANSWERABLE)[number];
 export type Answerable = AskOf<AnswerableKind>;
 
 export const KINDS = ['hier_demo', ...ANSWERABLE] as const satisfies readonly Kind[];
-
-/** The paper's names of the queries. */
-export const KIND_NAMES: Record<Kind, string> = {
-  hier_demo: 'HierDemo',
-  inspect_full: 'Inspect_FULL',
-  label_hi: 'Label_HI',
-  inspect_lo: 'Inspect_LO',
-  label_lo: 'Label_LO',
-  label_full: 'Label_FULL',
-};

@@ -1,5 +1,5 @@
+import { readable } from '../api/names';
 import type { Gold } from '../api/types';
-import { readable } from '../keys/registry';
 
 /** What is right, in a line: "pass"; "north, east or south"; "up, right, done at state 3". */
 export function knownWords(known: Gold['known']): string {

@@ -1,8 +1,9 @@
 // @vitest-environment happy-dom
 import { afterEach, describe, expect, it, vi } from 'vitest';
+import { initial } from '../api/names';
 import { ANSWERABLE, type Vocabulary } from '../api/types';
 import { keyOf, listen, match, printed, type KeyPress } from './keys';
-import { bindingsFor, collisions, initial, type Binding, type Mode } from './registry';
+import { bindingsFor, collisions, type Binding, type Mode } from './registry';
 
 const maze: Vocabulary = {
   domain: 'maze',

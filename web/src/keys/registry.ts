@@ -1,3 +1,4 @@
+import { initial, readable } from '../api/names';
 import type { AnswerableKind, Vocabulary } from '../api/types';
 
 /** What a key can do. `choose:2` sets the third subgoal or action of the vocabulary, `act:2` takes the third action. */
@@ -265,17 +266,4 @@ function choice(name: string, index: number, key: string | undefined): Binding {
   const digit = DIGITS[index];
   const keys = [key, digit].filter((one) => one !== undefined);
   return { command: `choose:${index}`, keys, label: readable(name), group: 'Answer' };
-}
-
-/** "go_to_target" is read "go to target". */
-export function readable(name: string): string {
-  return name.replaceAll('_', ' ');
-}
-
-/** The letter a subgoal goes by: N for north, T for go_to_target. */
-export function initial(name: string): string {
-  return name
-    .replace(/^(go_)?to_/i, '')
-    .charAt(0)
-    .toUpperCase();
 }

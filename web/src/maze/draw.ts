@@ -1,6 +1,6 @@
-import type { Label, Scene } from '../render/scene';
+import { initial } from '../api/names';
+import type { Label, Scene } from '../player/scene';
 import type { Stretch } from '../player/tape';
-import { initial } from '../keys/registry';
 import { direction, isDoor, isLava, parseCell, trailOffset, type Cell, type Maze } from './geometry';
 import type { Palette } from './palette';
 

@@ -1,4 +1,5 @@
-import { readColor } from '../ui/colors';
+import { readColor } from '../style/colors';
+import { SUBGOAL_COLORS } from '../style/subgoals';
 
 const NAMES = [
   'floor',
@@ -20,8 +21,6 @@ export interface Palette {
   readonly map: Readonly<Record<Name, string>>;
   readonly subgoals: readonly string[];
 }
-
-export const SUBGOAL_COLORS = 8;
 
 export function readPalette(element: Element): Palette {
   const map = Object.fromEntries(NAMES.map((name) => [name, readColor(element, `var(--map-${name})`)]));

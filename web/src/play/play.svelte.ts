@@ -1,6 +1,7 @@
+import { readable } from '../api/names';
 import type { AnswerOf, AskOf, PlayMoves, PlayStates, Prices, Vocabulary } from '../api/types';
-import { bindingsFor, readable, type Command } from '../keys/registry';
-import type { Scene } from '../render/scene';
+import { bindingsFor, type Command } from '../keys/registry';
+import type { Scene } from '../player/scene';
 import * as demos from './demonstration';
 import type { Demonstration, Move } from './demonstration';
 import type { PlayDrafts } from './drafts';

@@ -1,5 +1,5 @@
+import { readable } from '../api/names';
 import type { Answerable, Feedback } from '../api/types';
-import { readable } from '../keys/registry';
 import { askedFrames, lastFrame, type Tape } from '../player/tape';
 
 export type Mark = Feedback['marks'][number];

@@ -2,7 +2,7 @@ import type { Component } from 'svelte';
 import MazeView from '../maze/MazeView.svelte';
 import { stepMaze } from '../maze/steps';
 import PictureView from './PictureView.svelte';
-import type { Scene, Step } from './scene';
+import type { Scene, Step } from '../player/scene';
 
 type Renderer = Component<{ scene: Scene }>;
 

@@ -1,8 +1,7 @@
 import { api, unwrap, Refused, wordsOf } from '../api/client';
 import type { Costs, Curves, Run } from '../api/types';
-import { shell } from '../ui/shell.svelte';
-import { joined } from './curves';
-import { throttled, watch, type RunEvent } from './live';
+import { updatedCurves } from '../curves/curves';
+import { throttled, watch, type RunEvent } from '../api/live';
 
 const REFRESH_MS = 1_000;
 
@@ -93,22 +92,6 @@ export class WatchedRun {
   async #loadCurves(): Promise<void> {
     const known = this.#missed ? null : this.curves;
     this.#missed = false;
-    this.curves = await moreOf(this.#id, known);
-  }
-}
-
-/** A run's curves: those known, with what came since. */
-export async function moreOf(run: string, known: Curves | null): Promise<Curves> {
-  const params = { path: { run }, query: { after: known?.episode.at(-1) ?? -1 } };
-  return joined(known, await unwrap(api.GET('/api/v1/runs/{run}/curves', { params })));
-}
-
-/** Know who is looking, for what they may do. */
-export async function greet(): Promise<void> {
-  if (shell.me !== null) return;
-  try {
-    shell.me = await unwrap(api.GET('/api/v1/me'));
-  } catch {
-    // The view itself says that nobody is signed in.
+    this.curves = await updatedCurves(this.#id, known);
   }
 }

@@ -1,3 +1,4 @@
+import { api, unwrap } from '../api/client';
 import type { Me, Vocabulary } from '../api/types';
 import { PAGE_BINDINGS, type Binding, type Command } from '../keys/registry';
 import { loadKeymap, remapped, saveKeymap, type Keymap } from '../keys/remap';
@@ -12,6 +13,16 @@ class Shell {
   vocabulary: Vocabulary | null = $state.raw(null); // of the query on the screen
   helpOpen = $state(false);
   #run: ((command: Command) => void) | null = null;
+
+  /** Load who is signed in, unless that is known. */
+  async loadMe(): Promise<void> {
+    if (this.me !== null) return;
+    try {
+      this.me = await unwrap(api.GET('/api/v1/me'));
+    } catch {
+      // The view itself says that nobody is signed in.
+    }
+  }
 
   /** Have a view answer to these keys until the returned function is called. */
   use(bindings: readonly Binding[], run: (command: Command) => void): () => void {

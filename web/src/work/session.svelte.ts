@@ -1,34 +1,32 @@
+// One annotator at work: leases queries, keeps the leases, sends the answers.
+import type { AnswerSender } from '../answers/sender';
+import type { PendingAnswer } from '../answers/outbox';
 import { isAborted, Refused, Unreachable, wordsOf } from '../api/client';
+import { delay, pause, visible } from '../api/retry';
 import type { Answer, Assignment, Me } from '../api/types';
-import { heldOf, wish, type Desk, type Held, type Letter } from './desk';
-import { beat, NO_HEARTBEAT, pause, visible, type Heartbeat } from './heartbeat';
-import type { Mailer } from './mailer';
-import { delay } from './outbox';
+import type { Notice } from '../task/notice';
+import { beat, NO_HEARTBEAT, type Heartbeat } from './heartbeat';
+import { leaseRequest, proofOf, type LeaseProof, type WorkServer } from './server';
 
 export type Phase = 'loading' | 'waiting' | 'task' | 'sending' | 'offline' | 'signed-out' | 'refused';
 
-export interface Notice {
-  readonly tone: 'info' | 'warning';
-  readonly text: string;
-}
-
 const POLL_SECONDS = 20;
-/** The server holds a receipt back so long for the learner's next query. */
+/** How long the server may delay a receipt, to send the learner's next query with it. */
 const NEXT_SECONDS = 0.25;
 const UNDO_DEPTH = 10;
-/** Queries held besides the one on the screen, so that the next is there at once. */
+/** How many queries are leased besides the one on the screen, so that the next one appears at once. */
 const MOST_AHEAD = 2;
 const ME_EVERY_MS = 5_000;
 
-/** What is leased and waits for its turn. */
-interface Ahead {
+/** A query that was leased ahead and is not on the screen yet. */
+interface LeasedAhead {
   readonly assignment: Assignment;
   readonly heartbeat: Heartbeat;
 }
 
 /**
- * One annotator at work: leases a query, keeps the lease, sends the answer, goes on to the next. What comes next is
- * leased ahead where enough is asked, so that it is on the screen before the answer has arrived.
+ * The session of one work view: leases a query, renews the lease, sends the answer, shows the next query. The next
+ * query is leased ahead if there are enough queries, so that it is shown before the server has stored the answer.
  */
 export class WorkSession {
   phase: Phase = $state('loading');
@@ -37,37 +35,37 @@ export class WorkSession {
   notice: Notice | null = $state.raw(null);
   me: Me | null = $state.raw(null);
 
-  readonly #desk: Desk;
-  readonly #mailer: Mailer;
+  readonly #server: WorkServer;
+  readonly #sender: AnswerSender;
   readonly #run: string | null; // only this run's queries
-  readonly #active: () => boolean; // has the annotator done anything since it was last asked?
-  readonly #prepare: (assignment: Assignment) => void; // load what a query shows
+  readonly #active: () => boolean; // has the annotator done anything since the last call?
+  readonly #prepare: (assignment: Assignment) => void; // load the pictures of a query
   readonly #stopListening: () => void;
   #lookup = new AbortController();
   #lookupAhead = new AbortController();
   #heartbeat = NO_HEARTBEAT;
-  #tab = newName('page');
-  #ahead: readonly Ahead[] = [];
-  #expected = 0; // requests under way that may bring a query to be kept ahead
+  #tab = newName('tab');
+  #ahead: readonly LeasedAhead[] = [];
+  #expected = 0; // requests under way that may bring a query ahead
   #sending: Promise<unknown> = Promise.resolve();
-  #sent: readonly Held[] = []; // what can be undone, oldest first
+  #sent: readonly LeaseProof[] = []; // answers that can be taken back, oldest first
   #stopped = false;
-  #stored = 0; // answers, since the page was opened
+  #stored = 0; // answers, since the view was opened
   #meAt = 0;
 
   constructor(
-    desk: Desk,
-    mailer: Mailer,
+    server: WorkServer,
+    sender: AnswerSender,
     run: string | null,
     active: () => boolean,
     prepare: (assignment: Assignment) => void,
   ) {
-    this.#desk = desk;
-    this.#mailer = mailer;
+    this.#server = server;
+    this.#sender = sender;
     this.#run = run;
     this.#active = active;
     this.#prepare = prepare;
-    this.#stopListening = mailer.listen({
+    this.#stopListening = sender.listen({
       stored: () => this.#count(),
       refused: (reason) => this.#refused(reason),
     });
@@ -78,31 +76,31 @@ export class WorkSession {
     void this.#lookForWork();
   }
 
-  /** Give back what is held and stop asking. What is unsaved goes on being sent. */
+  /** Release all leases and stop asking for queries. Unsaved answers are still sent. */
   stop(): void {
     this.#stopped = true;
     this.#stopListening();
-    this.#setAside();
+    this.#releaseAll();
   }
 
-  /** The page is going, perhaps for good: give back what is held. */
+  /** Release all leases: the tab may be closing for good. */
   leave(): void {
-    this.#setAside();
+    this.#releaseAll();
   }
 
-  /** The page is back, out of the browser's memory of it. */
+  /** Work again: the browser has restored the view from its back/forward cache. */
   resume(): void {
-    this.#tab = newName('page');
+    this.#tab = newName('tab');
     if (this.assignment === null) void this.#lookForWork();
   }
 
   submit(answer: Answer): void {
     if (this.assignment === null || this.phase !== 'task') return;
-    const held = heldOf(this.assignment);
+    const lease = proofOf(this.assignment);
     this.#heartbeat.stop();
     this.notice = null;
     this.phase = 'sending';
-    const sent = this.#send({ ...held, answer, key: newName(`answer-${held.assignment}`), attempts: 0 });
+    const sent = this.#send({ ...lease, answer, key: newName(`answer-${lease.assignment}`), attempts: 0 });
     this.#sending = Promise.all([this.#sending, sent]);
     this.#showAhead();
   }
@@ -112,7 +110,7 @@ export class WorkSession {
     if (skipped === null || this.phase !== 'task') return;
     this.phase = 'sending';
     try {
-      await this.#desk.release(heldOf(skipped), reason, true);
+      await this.#server.release(proofOf(skipped), reason, true);
       this.notice = { tone: 'info', text: 'Skipped. It will not be offered to you again.' };
     } catch (error) {
       if (error instanceof Unreachable) {
@@ -121,7 +119,7 @@ export class WorkSession {
         return;
       }
     }
-    if (this.assignment !== skipped) return; // what came meanwhile is on the screen
+    if (this.assignment !== skipped) return; // another query came meanwhile and is on the screen
     this.#forget();
     this.#goOn();
   }
@@ -134,7 +132,7 @@ export class WorkSession {
       return;
     }
     try {
-      const assignment = await this.#desk.retract(last, this.#tab);
+      const assignment = await this.#server.retract(last, this.#tab);
       this.#sent = this.#sent.slice(0, -1);
       this.#postpone();
       this.#show(assignment);
@@ -144,11 +142,11 @@ export class WorkSession {
     }
   }
 
-  async #send(letter: Letter): Promise<void> {
+  async #send(pending: PendingAnswer): Promise<void> {
     const isNextThere = this.#ahead.length > 0;
-    const next = wish(this.#run, this.#tab, isNextThere ? 0 : NEXT_SECONDS, isNextThere);
-    const receipt = await this.#expecting(this.#mailer.send(letter, next));
-    if (receipt !== null) this.#sent = [...this.#sent, letter].slice(-UNDO_DEPTH);
+    const next = leaseRequest(this.#run, this.#tab, isNextThere ? 0 : NEXT_SECONDS, isNextThere);
+    const receipt = await this.#expecting(this.#sender.send(pending, next));
+    if (receipt !== null) this.#sent = [...this.#sent, pending].slice(-UNDO_DEPTH);
     if (receipt?.next) this.#receive(receipt.next);
     else if (this.phase === 'sending') {
       this.#forget();
@@ -156,19 +154,19 @@ export class WorkSession {
     } else if (receipt !== null) void this.#lookAhead();
   }
 
-  /** Go on to what is held, or look for something. */
+  /** Show the next query that is leased ahead, or look for one. */
   #goOn(): void {
     if (!this.#showAhead()) void this.#lookForWork();
   }
 
-  /** An assignment has come: show it, keep it for later, or give it back. */
+  /** Take an assignment that has come: show it, keep it ahead, or release it. */
   #receive(assignment: Assignment): void {
-    if (this.#stopped) void this.#giveBack(heldOf(assignment));
+    if (this.#stopped) void this.#release(proofOf(assignment));
     else if (this.phase === 'task') this.#keepAhead(assignment);
     else this.#show(assignment);
   }
 
-  /** Show what was leased ahead, if something was. */
+  /** Show the first query that is leased ahead; return whether there is one. */
   #showAhead(): boolean {
     const [first, ...rest] = this.#ahead;
     if (first === undefined) return false;
@@ -178,11 +176,11 @@ export class WorkSession {
     return true;
   }
 
-  /** Hold an assignment until its turn: the episode on the screen first, then as the server hands out. */
+  /** Keep an assignment ahead. The episode on the screen comes first; the rest is in the server's order. */
   #keepAhead(assignment: Assignment): void {
     this.#prepare(assignment);
     const isOther = (one: Assignment): number => Number(!followsUp(one, this.assignment));
-    this.#hold(
+    this.#keep(
       [...this.#waiting(), assignment].toSorted(
         (a, b) => isOther(a) - isOther(b) || b.query.priority - a.query.priority || a.query.id - b.query.id,
       ),
@@ -193,35 +191,35 @@ export class WorkSession {
     return this.#ahead.map((one) => one.assignment);
   }
 
-  /** Hold these, in this order, and give back those that are too many. */
-  #hold(assignments: readonly Assignment[]): void {
+  /** Keep these assignments ahead, in this order, and release those over the limit. */
+  #keep(assignments: readonly Assignment[]): void {
     for (const one of this.#ahead) one.heartbeat.stop();
     this.#ahead = assignments.slice(0, MOST_AHEAD).map((assignment) => ({
       assignment,
       heartbeat: beat(
         assignment.lease_seconds,
-        () => this.#desk.renew(heldOf(assignment), false),
+        () => this.#server.renew(proofOf(assignment), false),
         () => (this.#ahead = this.#ahead.filter((one) => one.assignment !== assignment)),
       ),
     }));
-    for (const assignment of assignments.slice(MOST_AHEAD)) void this.#giveBack(heldOf(assignment));
+    for (const assignment of assignments.slice(MOST_AHEAD)) void this.#release(proofOf(assignment));
   }
 
-  /** What is on the screen comes back after what is shown instead. */
+  /** Put the query on the screen ahead again: another one is shown before it. */
   #postpone(): void {
     const { assignment } = this;
     if (assignment === null || this.phase !== 'task') return;
     this.#forget();
-    this.#hold([assignment, ...this.#waiting()]);
+    this.#keep([assignment, ...this.#waiting()]);
   }
 
-  /** Lease the next query while this one is looked at, unless one is there or on its way. */
+  /** Lease the next query ahead, unless one is leased already or on its way. */
   async #lookAhead(): Promise<void> {
     if (this.#ahead.length > 0 || this.#expected > 0 || this.phase !== 'task') return;
     const { signal } = (this.#lookupAhead = new AbortController());
     try {
       const found = await this.#expecting(
-        this.#desk.lease(wish(this.#run, this.#tab, POLL_SECONDS, true), signal),
+        this.#server.lease(leaseRequest(this.#run, this.#tab, POLL_SECONDS, true), signal),
       );
       if (found !== null) this.#receive(found);
     } catch {
@@ -246,8 +244,8 @@ export class WorkSession {
       try {
         await visible(signal);
         const found =
-          (await this.#mailer.flush(wish(this.#run, this.#tab, 0))) ??
-          (await this.#desk.lease(wish(this.#run, this.#tab, wait), signal));
+          (await this.#sender.flush(leaseRequest(this.#run, this.#tab, 0))) ??
+          (await this.#server.lease(leaseRequest(this.#run, this.#tab, wait), signal));
         if (found !== null) return this.#receive(found);
         [attempts, wait] = [0, POLL_SECONDS];
         this.phase = 'waiting';
@@ -266,24 +264,24 @@ export class WorkSession {
     this.assignment = assignment;
     this.phase = 'task';
     this.shown += 1;
-    const held = heldOf(assignment);
+    const lease = proofOf(assignment);
     this.#heartbeat = beat(
       assignment.lease_seconds,
-      () => this.#desk.renew(held, this.#active()),
+      () => this.#server.renew(lease, this.#active()),
       () => this.lose(),
     );
     void this.#lookAhead();
   }
 
-  /** The lease is gone: say so and go on. */
+  /** The lease is lost: tell the annotator and show the next query. */
   lose(): void {
     if (this.phase !== 'task') return;
     this.#forget();
     this.#warn(
-      'The time on that query ran out, so it went back to the queue. Nothing was charged and nothing is wrong; here is what comes next.',
+      'Your lease on that query expired, so it went back to the queue. Nothing was charged. The next query is here.',
     );
     this.#goOn();
-    this.#heartbeat.now(); // what was held for later may be gone too
+    this.#heartbeat.now(); // the leases ahead may be lost too
   }
 
   #refused(reason: Refused): void {
@@ -296,20 +294,20 @@ export class WorkSession {
     this.#warn(reason.message);
   }
 
-  /** Give back what was leased, and what is being leased, to this page; not what is being answered. */
-  #setAside(): void {
+  /** Release every lease of this tab, present and coming, except those whose answers are being sent. */
+  #releaseAll(): void {
     this.#lookup.abort();
     this.#lookupAhead.abort();
-    this.#hold([]);
+    this.#keep([]);
     if (this.phase !== 'sending') this.#forget();
-    this.#desk.leave(this.#tab, this.#mailer.unsent()).catch(() => undefined); // the leases end by themselves
+    this.#server.leave(this.#tab, this.#sender.unsent()).catch(() => undefined); // otherwise the leases expire
   }
 
-  async #giveBack(held: Held): Promise<void> {
+  async #release(lease: LeaseProof): Promise<void> {
     try {
-      await this.#desk.release(held, '', false);
+      await this.#server.release(lease, '', false);
     } catch {
-      // Its lease ends by itself.
+      // The lease expires.
     }
   }
 
@@ -330,9 +328,9 @@ export class WorkSession {
     this.#meAt = performance.now();
     const stored = this.#stored;
     try {
-      const me = await this.#desk.me();
+      const me = await this.#server.me();
       if (stored === this.#stored) this.me = me;
-      else void this.#refreshMe(); // an answer was stored meanwhile, which these numbers may be without
+      else void this.#refreshMe(); // an answer was stored meanwhile; these numbers may not count it
     } catch {
       // The numbers in the footer stay as they were.
     }
@@ -343,7 +341,7 @@ export class WorkSession {
   }
 }
 
-/** Is a query about the episode that is on the screen? */
+/** Return whether a query is about the episode on the screen. */
 function followsUp({ query }: Assignment, shown: Assignment | null): boolean {
   return shown !== null && query.run === shown.query.run && query.ask.episode === shown.query.ask.episode;
 }
@@ -355,12 +353,12 @@ const UNDO_REFUSED: Readonly<Record<string, string>> = {
 
 function refusalWords(reason: Refused): string {
   if (reason.name === 'lease-expired') {
-    return 'That answer came after the time on the query had run out. It is kept, but does not count and costs nothing.';
+    return 'That answer came after your lease had expired. It is kept, but it does not count and costs nothing.';
   }
-  return `That answer was not taken: ${reason.message}`;
+  return `The server did not accept that answer: ${reason.message}`;
 }
 
-/** A name that nobody else has. */
+/** Return a unique name that begins with a word. */
 function newName(what: string): string {
   const random = crypto.getRandomValues(new Uint32Array(2));
   return `${what}-${[...random].map((part) => part.toString(16)).join('')}`;

@@ -1,9 +1,9 @@
 // @vitest-environment happy-dom
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { AnswerSender, type SendAnswer } from '../answers/sender';
 import { Refused, Unreachable } from '../api/client';
-import type { Assignment, Lease, Me, Receipt } from '../api/types';
-import type { Desk, Held, SendAnswer } from './desk';
-import { Mailer } from './mailer';
+import type { Assignment, LeaseRequest, Me, Receipt } from '../api/types';
+import type { LeaseProof, WorkServer } from './server';
 import { WorkSession } from './session.svelte';
 
 const receipt = (next: Assignment | null): Receipt => ({
@@ -23,43 +23,43 @@ function assignment(id: number, episode = id): Assignment {
 }
 
 /** A server's side that leases what it is given, in order. */
-class FakeDesk implements Desk {
+class FakeServer implements WorkServer {
   offered: Assignment[] = [];
   later: Assignment[] = []; // leased ahead only
   readonly released: number[] = [];
-  readonly renew = vi.fn<Desk['renew']>(() => Promise.resolve());
-  readonly retract = vi.fn<Desk['retract']>();
+  readonly renew = vi.fn<WorkServer['renew']>(() => Promise.resolve());
+  readonly retract = vi.fn<WorkServer['retract']>();
 
-  wished: Lease | null = null;
+  requested: LeaseRequest | null = null;
 
-  lease(wish: Lease): Promise<Assignment | null> {
-    this.wished = wish;
-    const found = (wish.ahead ? this.later : this.offered).shift();
+  lease(request: LeaseRequest): Promise<Assignment | null> {
+    this.requested = request;
+    const found = (request.ahead ? this.later : this.offered).shift();
     if (found !== undefined) return Promise.resolve(found);
-    return wish.wait === 0 ? Promise.resolve(null) : new Promise(() => undefined);
+    return request.wait === 0 ? Promise.resolve(null) : new Promise(() => undefined);
   }
 
-  release(held: Held): Promise<unknown> {
-    this.released.push(held.assignment);
+  release(lease: LeaseProof): Promise<unknown> {
+    this.released.push(lease.assignment);
     return Promise.resolve();
   }
 
-  readonly leave = vi.fn<Desk['leave']>(() => Promise.resolve());
+  readonly leave = vi.fn<WorkServer['leave']>(() => Promise.resolve());
 
-  readonly me = vi.fn<Desk['me']>(() => Promise.reject(new Unreachable()));
+  readonly me = vi.fn<WorkServer['me']>(() => Promise.reject(new Unreachable()));
 }
 
 describe('a session', () => {
   const answer = vi.fn<SendAnswer>();
   const prepare = vi.fn();
   let active = false;
-  let desk: FakeDesk;
+  let server: FakeServer;
   let session: WorkSession;
   const shown = (): number | undefined => session.assignment?.id;
   const settled = (): Promise<unknown> => vi.advanceTimersByTimeAsync(0);
 
   async function started(offered: Assignment[], later: Assignment[] = []): Promise<void> {
-    [desk.offered, desk.later] = [offered, later];
+    [server.offered, server.later] = [offered, later];
     session.start();
     await settled();
   }
@@ -69,11 +69,11 @@ describe('a session', () => {
     vi.resetAllMocks();
     sessionStorage.clear();
     active = false;
-    desk = new FakeDesk();
-    desk.renew.mockImplementation(() => Promise.resolve());
-    desk.me.mockRejectedValue(new Unreachable());
-    const mailer = new Mailer(answer, sessionStorage, () => undefined);
-    session = new WorkSession(desk, mailer, null, () => active, prepare);
+    server = new FakeServer();
+    server.renew.mockImplementation(() => Promise.resolve());
+    server.me.mockRejectedValue(new Unreachable());
+    const sender = new AnswerSender(answer, sessionStorage, () => undefined);
+    session = new WorkSession(server, sender, null, () => active, prepare);
   });
   afterEach(() => {
     session.stop();
@@ -92,7 +92,9 @@ describe('a session', () => {
   it('counts an answer that was stored while its numbers were on their way', async () => {
     const today = (answers: number): Me => ({ answers_today: answers }) as Me;
     let arrive = (_: Me): void => undefined;
-    desk.me.mockReturnValueOnce(new Promise((resolve) => (arrive = resolve))).mockResolvedValueOnce(today(1));
+    server.me
+      .mockReturnValueOnce(new Promise((resolve) => (arrive = resolve)))
+      .mockResolvedValueOnce(today(1));
     answer.mockResolvedValue(receipt(null));
     await started([assignment(1)]);
     session.submit(PASS);
@@ -113,7 +115,7 @@ describe('a session', () => {
   });
 
   it('goes on with the episode on the screen before others that were leased earlier', async () => {
-    desk.retract.mockResolvedValue(assignment(1, 1));
+    server.retract.mockResolvedValue(assignment(1, 1));
     answer.mockResolvedValueOnce(receipt(assignment(3, 5))).mockResolvedValueOnce(receipt(assignment(4, 1)));
     await started([assignment(1, 1)], [assignment(2, 1)]);
     session.submit(PASS);
@@ -129,7 +131,7 @@ describe('a session', () => {
   });
 
   it('asks ahead once at a time, and again when an answer brought nothing', async () => {
-    const lease = vi.spyOn(desk, 'lease');
+    const lease = vi.spyOn(server, 'lease');
     answer.mockResolvedValue(receipt(null));
     await started([assignment(1)], [assignment(2)]);
     session.submit(PASS);
@@ -140,18 +142,18 @@ describe('a session', () => {
 
   it('holds two ahead at most, and gives the third back', async () => {
     answer.mockResolvedValue(receipt(assignment(3)));
-    desk.retract.mockResolvedValue(assignment(1));
+    server.retract.mockResolvedValue(assignment(1));
     await started([assignment(1)], [assignment(2)]);
     session.submit(PASS);
     await settled(); // 2 on the screen, 3 ahead
     await session.undo();
     expect(shown()).toBe(1);
-    expect(desk.released).toEqual([]);
+    expect(server.released).toEqual([]);
     answer.mockResolvedValue(receipt(assignment(4)));
     session.submit(PASS);
     await settled(); // 2 on the screen, 3 and 4 ahead
     await session.undo();
-    expect(desk.released).toEqual([4]);
+    expect(server.released).toEqual([4]);
     session.submit(PASS);
     expect(shown()).toBe(2);
   });
@@ -161,17 +163,17 @@ describe('a session', () => {
     answer.mockReturnValue(new Promise(() => undefined));
     session.submit(PASS);
     session.leave();
-    expect(desk.leave).toHaveBeenCalledExactlyOnceWith(desk.wished?.tab, [1]);
+    expect(server.leave).toHaveBeenCalledExactlyOnceWith(server.requested?.tab, [1]);
     expect(shown()).toBeUndefined();
   });
 
   it('comes back as another page', async () => {
     await started([assignment(1)]);
     session.leave();
-    const before = desk.wished?.tab;
+    const before = server.requested?.tab;
     session.resume();
     await settled();
-    expect(desk.wished?.tab).not.toBe(before);
+    expect(server.requested?.tab).not.toBe(before);
   });
 
   it('gives back what comes after it was stopped', async () => {
@@ -182,14 +184,14 @@ describe('a session', () => {
     session.stop();
     arrive(assignment(2));
     await settled();
-    expect(desk.released).toContain(2);
+    expect(server.released).toContain(2);
   });
 
   it('keeps what is ahead alive, and says of the one on the screen alone that somebody is at it', async () => {
     await started([assignment(1)], [assignment(2)]);
     active = true;
     await vi.advanceTimersByTimeAsync(20_000);
-    const beats = desk.renew.mock.calls.map(([held, isActive]) => [held.assignment, isActive]);
+    const beats = server.renew.mock.calls.map(([lease, isActive]) => [lease.assignment, isActive]);
     expect(beats.toSorted()).toEqual([
       [1, true],
       [2, false],
@@ -198,8 +200,8 @@ describe('a session', () => {
 
   it('after a sleep past its leases shows none of them again', async () => {
     await started([assignment(1)], [assignment(2)]);
-    desk.renew.mockRejectedValue(LATE);
-    desk.offered = [assignment(7)];
+    server.renew.mockRejectedValue(LATE);
+    server.offered = [assignment(7)];
     await vi.advanceTimersByTimeAsync(20_000);
     expect(shown()).toBe(7);
     expect(session.notice?.text).toContain('went back to the queue');
@@ -208,8 +210,8 @@ describe('a session', () => {
   it('after an answer that came too late looks whether the next is still its own', async () => {
     await started([assignment(1)], [assignment(2)]);
     answer.mockRejectedValue(LATE);
-    desk.renew.mockRejectedValue(LATE);
-    desk.offered = [assignment(7)];
+    server.renew.mockRejectedValue(LATE);
+    server.offered = [assignment(7)];
     session.submit(PASS);
     await settled();
     expect(shown()).toBe(7);
@@ -218,7 +220,7 @@ describe('a session', () => {
   it('skips to what is ahead, or to what came while it skipped', async () => {
     await started([assignment(1)], [assignment(2)]);
     await session.skip('dark');
-    expect([shown(), desk.released]).toEqual([2, [1]]);
+    expect([shown(), server.released]).toEqual([2, [1]]);
     expect(session.notice?.text).toContain('Skipped');
   });
 
@@ -228,7 +230,7 @@ describe('a session', () => {
     session.submit(PASS);
     await settled();
     expect(shown()).toBe(2);
-    desk.lease = () => Promise.reject(new Unreachable());
+    server.lease = () => Promise.reject(new Unreachable());
     session.submit(PASS);
     await settled();
     expect(session.phase).toBe('offline');

@@ -1,0 +1,32 @@
+// The names that people read: of the kinds of query, of subgoals and of actions.
+import type { Kind } from './types';
+
+/** The paper's names of the queries. */
+export const KIND_NAMES: Readonly<Record<Kind, string>> = {
+  hier_demo: 'HierDemo',
+  inspect_full: 'Inspect_FULL',
+  label_hi: 'Label_HI',
+  inspect_lo: 'Inspect_LO',
+  label_lo: 'Label_LO',
+  label_full: 'Label_FULL',
+};
+
+/** Return a name as people read it: "go_to_target" becomes "go to target". */
+export function readable(name: string): string {
+  return name.replaceAll('_', ' ');
+}
+
+/** Return the letter that stands for a subgoal: N for north, T for go_to_target. */
+export function initial(name: string): string {
+  return name
+    .replace(/^(go_)?to_/i, '')
+    .charAt(0)
+    .toUpperCase();
+}
+
+const ARROWS: Readonly<Record<string, string>> = { up: '↑', down: '↓', left: '←', right: '→' };
+
+/** Return the arrow of an action that has a direction, else its name. */
+export function arrowOrName(action: string): string {
+  return ARROWS[action] ?? readable(action);
+}

@@ -1,7 +1,0 @@
-import { mount } from 'svelte';
-import './ui/base.css';
-import App from './App.svelte';
-
-const target = document.getElementById('app');
-if (target === null) throw new Error('index.html has no #app');
-mount(App, { target });

@@ -1,0 +1,72 @@
+import type { PlayMoves, PlayStage, PlayStates, PlayTake } from '../api/types';
+import { delay, pause } from '../api/retry';
+
+export interface LinkEvents {
+  /** The learner's environment is there, or it is not. */
+  stage(present: boolean): void;
+  states(news: PlayStates): void;
+  /** The connection is lost; another attempt follows by itself. */
+  lost(): void;
+  /** The server will not have us here, and says why; 409: the query is not ours any more. */
+  refused(words: string, status: number): void;
+}
+
+type OpenSocket = () => WebSocket;
+
+const REFUSED = 4400; // and above: 4000 + the status of the refusal
+const PASSING = new Set([4408, 4429]); // and 4500 and above: may be otherwise the next time
+
+/** The play socket of one query, opened again whenever it is lost. */
+export class PlayLink {
+  readonly #open: OpenSocket;
+  readonly #hello: PlayTake;
+  readonly #events: LinkEvents;
+  readonly #over = new AbortController();
+  #socket: WebSocket | null = null;
+  #attempts = 0;
+
+  constructor(open: OpenSocket, hello: PlayTake, events: LinkEvents) {
+    this.#open = open;
+    this.#hello = hello;
+    this.#events = events;
+    this.#connect();
+  }
+
+  send(moves: PlayMoves): void {
+    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(moves));
+  }
+
+  close(): void {
+    this.#over.abort();
+    this.#socket?.close();
+  }
+
+  #connect(): void {
+    const socket = (this.#socket = this.#open());
+    socket.onopen = () => socket.send(JSON.stringify(this.#hello));
+    socket.onmessage = (event: MessageEvent<string>) => this.#hear(JSON.parse(event.data));
+    socket.onclose = (event) => void this.#closed(event);
+  }
+
+  #hear(message: PlayStage | PlayStates): void {
+    if (this.#over.signal.aborted) return;
+    this.#attempts = 0;
+    if (message.type === 'stage') this.#events.stage(message.present);
+    else this.#events.states(message);
+  }
+
+  async #closed({ code, reason }: CloseEvent): Promise<void> {
+    if (this.#over.signal.aborted) return;
+    if (code >= REFUSED && code < 4500 && !PASSING.has(code))
+      return this.#events.refused(reason, code - 4000);
+    this.#events.lost();
+    await pause(delay(++this.#attempts), this.#over.signal);
+    if (!this.#over.signal.aborted) this.#connect();
+  }
+}
+
+export function openPlaySocket(query: number): WebSocket {
+  const address = new URL(`/api/v1/queries/${query}/play`, location.href);
+  address.protocol = address.protocol.replace('http', 'ws');
+  return new WebSocket(address);
+}

@@ -1,0 +1,171 @@
+import type { Answer, Answerable, Run } from '../api/types';
+import { bindingsFor, type Command } from '../keys/registry';
+import { answerOf, choose, EDITS, HINTS, moveTo, newLabels, type Labels } from '../labels/labels';
+import { markFirstWrong, type LoLabels } from '../labels/lo';
+import { MOVES } from '../player/commands';
+import * as players from '../player/player';
+import { askedFrames, buildTape, lastFrame, stops, stretchAt } from '../player/tape';
+import type { Label, Scene } from '../player/scene';
+import { draftOf, keepDraft } from '../labels/drafts';
+
+export interface TaskOptions {
+  readonly query: number;
+  readonly ask: Answerable;
+  readonly run: Run;
+  readonly speed: number;
+  readonly still: boolean; // nothing moves unless asked to
+}
+
+export interface TaskEvents {
+  submit(answer: Answer): void;
+  skip(): void;
+  undo(): void;
+}
+
+/** One query on the screen: where its player stands, what is labeled, and what every key does to both. */
+export class Task {
+  readonly ask;
+  readonly tape;
+  readonly stops;
+  readonly bindings;
+  player = $state.raw(players.player(0, 0));
+  labels: Labels | null = $state.raw(null);
+  hint = $state(''); // why a key did nothing
+  readonly answer: Answer | null = $derived.by(() => answerOf(this.labels));
+  readonly scene: Scene = $derived.by(() => this.#scene());
+
+  readonly #options: TaskOptions;
+  readonly #events: TaskEvents;
+  readonly #frames: readonly number[]; // frame of each asked state
+  #firstShowing = false;
+
+  constructor(options: TaskOptions, events: TaskEvents) {
+    const { ask, run } = options;
+    this.#options = options;
+    this.#events = events;
+    this.ask = ask;
+    this.tape = buildTape(ask.context, ask.segments);
+    this.stops = stops(this.tape);
+    this.bindings = bindingsFor(ask.kind, run.vocabulary);
+    this.#frames = askedFrames(this.tape);
+    this.labels = draftOf(options.query) ?? newLabels(ask);
+    this.player = this.#firstLook();
+    this.#showCursor();
+  }
+
+  /** Milliseconds per frame while playing. */
+  get pace(): number {
+    return 1000 / players.framesPerSecond(this.player, this.#firstShowing);
+  }
+
+  tick(frames: number): void {
+    this.player = players.advance(this.player, frames);
+    if (this.player.playing) return;
+    this.#firstShowing = false;
+    this.#showCursor();
+  }
+
+  /** Look at a frame; for action labels that is also the state to label next. */
+  seek(frame: number): void {
+    this.#move(players.seek(this.player, frame));
+  }
+
+  moveTo(index: number): void {
+    this.#edit((labels) => moveTo(labels, index));
+  }
+
+  firstWrong(state: number): void {
+    this.#edit((labels) => (labels.kind === 'label_hi' ? labels : markFirstWrong(labels, state)));
+  }
+
+  run(command: Command): void {
+    this.hint = '';
+    const move = MOVES[command];
+    const edit = EDITS[command];
+    if (move) this.#move(move(this.player, this.stops));
+    else if (command === 'pass' || command === 'fail') this.#judge(command);
+    else if (command === 'skip' || command === 'undo') this.#events[command]();
+    else if (command === 'accept' && this.answer) this.#events.submit(this.answer);
+    else if (command.startsWith('choose:')) this.#choose(Number(command.slice('choose:'.length)));
+    else if (edit) this.#edit(edit, HINTS[command]);
+    if (command === 'accept-rest') this.#submitAll();
+  }
+
+  #judge(verdict: 'pass' | 'fail'): void {
+    const { kind } = this.ask;
+    if (kind === 'inspect_full' || kind === 'inspect_lo') this.#events.submit({ kind, verdict });
+  }
+
+  #choose(index: number): void {
+    this.#edit((labels) => choose(labels, index, this.#options.run.vocabulary), HINTS.choose);
+  }
+
+  #submitAll(): void {
+    if (this.answer) this.#events.submit(this.answer);
+    else this.hint = 'Not everything is labeled: the learner made no choice that could be kept here.';
+  }
+
+  #edit(change: (labels: Labels) => Labels, hint = ''): void {
+    if (this.labels === null) return;
+    const next = change(this.labels);
+    if (next === this.labels) this.hint = hint;
+    this.labels = next;
+    keepDraft(this.#options.query, next);
+    this.#showCursor();
+  }
+
+  #move(next: players.Player): void {
+    this.#firstShowing = false;
+    this.player = next;
+    if (next.playing || this.labels === null || this.labels.kind === 'label_hi') return;
+    this.labels = moveTo(
+      this.labels,
+      Math.max(
+        0,
+        this.#frames.findLastIndex((frame) => frame <= next.at),
+      ),
+    );
+  }
+
+  /** An inspection plays at once, and fast; labels begin at the first state. */
+  #firstLook(): players.Player {
+    const { speed, still } = this.#options;
+    const begin = players.player(this.tape.start, lastFrame(this.tape), speed);
+    if (this.labels !== null) return begin;
+    if (still) return players.seek(begin, begin.last);
+    this.#firstShowing = true;
+    return players.toggle(begin);
+  }
+
+  /** While labeling, the map rests on what is to be labeled. */
+  #showCursor(): void {
+    if (this.labels === null) return;
+    const { cursor, kind } = this.labels;
+    const asked = this.tape.stretches.filter((stretch) => stretch.asked);
+    const frame = kind === 'label_hi' ? asked[cursor]?.first : this.#frames[cursor];
+    this.player = players.seek(this.player, frame ?? this.player.at);
+  }
+
+  #scene(): Scene {
+    const { ask, labels, tape } = this;
+    const { at } = this.player;
+    const isHi = labels?.kind === 'label_hi';
+    const current = isHi ? ask.context.length + labels.cursor : (stretchAt(tape, at)?.index ?? null);
+    const marks = labels === null || isHi ? [] : this.#marks(labels);
+    return {
+      instance: ask.instance,
+      tape,
+      vocabulary: this.#options.run.vocabulary,
+      at,
+      current,
+      labels: marks,
+    };
+  }
+
+  #marks(labels: LoLabels): Label[] {
+    const marks = labels.actions.map((action, state) => ({ frame: this.#frames[state] ?? 0, action }));
+    const said = marks.filter((mark) => mark.action !== null);
+    const end = typeof labels.end === 'number' ? this.#frames[labels.end] : undefined;
+    return end === undefined ? said : [...said, { frame: end, action: null }];
+  }
+}

@@ -1,0 +1,23 @@
+// Whether the annotator is active. The server's clock counts the seconds.
+
+const SIGNS = ['keydown', 'pointerdown', 'pointermove', 'wheel'] as const;
+
+/** Notes keys and pointer events. */
+class Activity {
+  #active = false;
+
+  constructor() {
+    for (const sign of SIGNS) {
+      window.addEventListener(sign, () => (this.#active = true), { capture: true, passive: true });
+    }
+  }
+
+  /** Return whether the annotator did anything since the last call. */
+  take(): boolean {
+    const active = this.#active;
+    this.#active = false;
+    return active;
+  }
+}
+
+export const activity = new Activity();
