@@ -55,6 +55,7 @@ export function throttled(call: () => Promise<unknown>, milliseconds: number): (
     [busy, again] = [true, false];
     await Promise.all([call(), new Promise((resolve) => setTimeout(resolve, milliseconds))]);
     busy = false;
+    // eslint-disable-next-line @typescript-eslint/no-unnecessary-condition -- it may be set during the wait
     if (again) void fire();
   }
   return () => {

@@ -86,7 +86,7 @@ export function joined(known: Curves | null, more: Curves): Curves {
     lo_cost: [...known.lo_cost, ...more.lo_cost],
     seconds: [...known.seconds, ...more.seconds],
     active_seconds: [...known.active_seconds, ...more.active_seconds],
-    cost_by_kind: Object.fromEntries(kinds),
+    cost_by_kind: Object.fromEntries(kinds) as Curves['cost_by_kind'],
     hi_labels: [...known.hi_labels, ...more.hi_labels],
     lo_samples: [...known.lo_samples, ...more.lo_samples],
     learner_seconds: [...known.learner_seconds, ...more.learner_seconds],

@@ -58,7 +58,9 @@ describe('the registry', () => {
 
   it('gives the subgoals of the maze their letters and digits, and skip another key', () => {
     const bindings = bindingsFor('label_hi', maze);
-    expect(maze.subgoals.map((_, index) => keysOf(bindings, `choose:${index}`)?.[0])).toEqual([...'nswet']);
+    expect(maze.subgoals.map((_, index) => keysOf(bindings, `choose:${index}`)?.[0])).toEqual(
+      Array.from('nswet'),
+    );
     expect(keysOf(bindings, 'choose:4')).toEqual(['t', '5']);
     expect(keysOf(bindings, 'skip')).toEqual(['Shift+s']);
     expect(keysOf(bindingsFor('inspect_lo', maze), 'skip')).toEqual(['s', 'Shift+s']);

@@ -245,7 +245,7 @@ function demoBindings(mode: 'hier_demo' | 'flat_demo', { subgoals, actions }: Vo
 
 function freeLetter(name: string, taken: ReadonlySet<string>): string | undefined {
   const candidates = `${initial(name)}${name}abcdefghijklmnopqrstuvwxyz`.toLowerCase();
-  return [...candidates].find((letter) => /[a-z]/.test(letter) && !taken.has(letter));
+  return Array.from(candidates).find((letter) => /[a-z]/.test(letter) && !taken.has(letter));
 }
 
 /** A subgoal has its initial where that is free and no other's, and a digit. */

@@ -36,10 +36,10 @@ export function partsOf({ moves }: Demonstration): Part[] {
   for (const move of moves.slice(moves.findLastIndex((one) => one.does === 'restart') + 1)) {
     const last = parts.at(-1);
     if (move.does === 'choose') {
-      if (last && last.actions.length === 0) parts.pop(); // another choice before the first step
+      if (last?.actions.length === 0) parts.pop(); // another choice before the first step
       parts.push({ subgoal: move.subgoal, actions: [], reached: false });
     } else if (move.does === 'act') {
-      const under = last && !last.reached ? last : { subgoal: null, actions: [], reached: false };
+      const under = last?.reached === false ? last : { subgoal: null, actions: [], reached: false };
       if (under === last) parts.pop();
       parts.push({ ...under, actions: [...under.actions, move.action] });
     } else if (move.does === 'reach' && last) {

@@ -25,7 +25,7 @@ type Stage = 'connecting' | 'here' | 'away' | 'lost' | 'refused';
 
 /** One demonstration on the screen: what is played, what the learner's environment made of it, what every key does. */
 export class Play {
-  demonstration: Demonstration = $state.raw() as Demonstration;
+  demonstration: Demonstration;
   stage: Stage = $state('connecting');
   refusal = $state(''); // why the server will not have us play
   hint = $state(''); // why a key did nothing
@@ -48,7 +48,7 @@ export class Play {
     this.#options = options;
     this.#events = events;
     this.bindings = bindingsFor(ask.flat ? 'flat_demo' : 'hier_demo', vocabulary);
-    this.demonstration = demos.begin(ask, drafts.of(draft, vocabulary));
+    this.demonstration = $state.raw(demos.begin(ask, drafts.of(draft, vocabulary)));
   }
 
   get ask(): AskOf<'hier_demo'> {

@@ -36,7 +36,11 @@ class Wire {
 let wires: Wire[];
 let heard: unknown[];
 let link: PlayLink;
-const last = (): Wire => wires.at(-1) as Wire;
+const last = (): Wire => {
+  const wire = wires.at(-1);
+  if (wire === undefined) throw new Error('no socket was opened');
+  return wire;
+};
 
 beforeEach(() => {
   vi.useFakeTimers();

@@ -44,7 +44,8 @@ export class PlayLink {
   #connect(): void {
     const socket = (this.#socket = this.#open());
     socket.onopen = () => socket.send(JSON.stringify(this.#hello));
-    socket.onmessage = (event: MessageEvent<string>) => this.#hear(JSON.parse(event.data));
+    socket.onmessage = (event: MessageEvent<string>) =>
+      this.#hear(JSON.parse(event.data) as PlayStage | PlayStates);
     socket.onclose = (event) => void this.#closed(event);
   }
 
@@ -57,10 +58,13 @@ export class PlayLink {
 
   async #closed({ code, reason }: CloseEvent): Promise<void> {
     if (this.#over.signal.aborted) return;
-    if (code >= REFUSED && code < 4500 && !PASSING.has(code))
-      return this.#events.refused(reason, code - 4000);
+    if (code >= REFUSED && code < 4500 && !PASSING.has(code)) {
+      this.#events.refused(reason, code - 4000);
+      return;
+    }
     this.#events.lost();
     await pause(delay(++this.#attempts), this.#over.signal);
+    // eslint-disable-next-line @typescript-eslint/no-unnecessary-condition -- it may be aborted during the pause
     if (!this.#over.signal.aborted) this.#connect();
   }
 }

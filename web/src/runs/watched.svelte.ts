@@ -33,6 +33,7 @@ export class WatchedRun {
   ledgerChanged = $state(0);
 
   readonly #id: string;
+  // eslint-disable-next-line svelte/prefer-svelte-reactivity -- nothing on the screen depends on it
   readonly #stale = new Set<Part>(PARTS);
   #missed = false; // then the curves are loaded from their beginning
   #stopped = false;

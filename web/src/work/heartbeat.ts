@@ -16,6 +16,7 @@ export function beat(leaseSeconds: number, renew: () => Promise<unknown>, lost: 
     try {
       await renew();
     } catch (error) {
+      // eslint-disable-next-line @typescript-eslint/no-unnecessary-condition -- it may be set during the request
       if (!(error instanceof Refused) || stopped) return;
       stop();
       lost();

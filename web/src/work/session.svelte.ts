@@ -246,12 +246,18 @@ export class WorkSession {
         const found =
           (await this.#sender.flush(leaseRequest(this.#run, this.#tab, 0))) ??
           (await this.#server.lease(leaseRequest(this.#run, this.#tab, wait), signal));
-        if (found !== null) return this.#receive(found);
+        if (found !== null) {
+          this.#receive(found);
+          return;
+        }
         [attempts, wait] = [0, POLL_SECONDS];
         this.phase = 'waiting';
       } catch (error) {
         if (isAborted(error)) return;
-        if (error instanceof Refused) return this.#turnAway(error);
+        if (error instanceof Refused) {
+          this.#turnAway(error);
+          return;
+        }
         this.phase = 'offline';
         await pause(delay(++attempts), signal);
       }

@@ -1,0 +1,70 @@
+// Which view an address leads to. Pure.
+
+export type Route =
+  | { readonly view: 'login' }
+  | { readonly view: 'work'; readonly run: string | null }
+  | RunsRoute
+  | { readonly view: 'gold'; readonly run: string }
+  | { readonly view: 'practice' | 'people' | 'me' }
+  | { readonly view: 'person'; readonly user: number }
+  | { readonly view: 'nowhere' };
+
+export type RunsRoute =
+  | { readonly view: 'runs' }
+  | { readonly view: 'compare' }
+  | { readonly view: 'run'; readonly run: string; readonly section: Section }
+  | { readonly view: 'query'; readonly run: string; readonly query: number };
+
+/** The parts of the view of a run. */
+export type Section = 'overview' | 'queries' | 'ledger';
+
+export function parseRoute(path: string, search: string): Route {
+  const [first = '', second = '', ...rest] = path.split('/').filter(Boolean);
+  if (first === 'runs' && rest.length === 1 && rest[0] === 'gold')
+    return { view: 'gold', run: decoded(second) };
+  if (first === 'runs') return runsRoute(second, ...rest) ?? { view: 'nowhere' };
+  if (rest.length > 0) return { view: 'nowhere' };
+  if (first === 'people' && /^[1-9]\d{0,14}$/.test(second)) return { view: 'person', user: Number(second) };
+  if (second !== '') return { view: 'nowhere' };
+  if (first === 'practice' || first === 'people' || first === 'me') return { view: first };
+  if (first === 'login') return { view: 'login' };
+  if (first === 'work' || first === '') return { view: 'work', run: new URLSearchParams(search).get('run') };
+  return { view: 'nowhere' };
+}
+
+function runsRoute(run: string, section = '', query = '', ...more: string[]): RunsRoute | null {
+  if (more.length > 0) return null;
+  if (run === '') return { view: 'runs' };
+  if (section === '')
+    return run === 'compare' ? { view: run } : { view: 'run', run: decoded(run), section: 'overview' };
+  if (query === '')
+    return section === 'queries' || section === 'ledger' ? { view: 'run', run: decoded(run), section } : null;
+  if (section !== 'queries' || !/^[1-9]\d{0,14}$/.test(query)) return null;
+  return { view: 'query', run: decoded(run), query: Number(query) };
+}
+
+function decoded(part: string): string {
+  try {
+    return decodeURIComponent(part);
+  } catch {
+    return part;
+  }
+}
+
+/** Return the search part of an address with some parameters changed; null and '' remove a parameter. */
+export function searchWith(
+  search: string,
+  changes: Readonly<Record<string, string | readonly string[] | null>>,
+): string {
+  const parameters = new URLSearchParams(search);
+  for (const [name, value] of Object.entries(changes)) {
+    parameters.delete(name);
+    for (const one of [value ?? []].flat()) if (one !== '') parameters.append(name, one);
+  }
+  return parameters.size > 0 ? `?${parameters.toString()}` : '';
+}
+
+/** Return the whole number that a parameter is, or null where it is none. */
+export function wholeNumber(text: string | null): number | null {
+  return text !== null && /^\d{1,15}$/.test(text) ? Number(text) : null;
+}
