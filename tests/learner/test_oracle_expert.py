@@ -8,15 +8,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
-
-from learner.domains.base import find_domain
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.env import MazeEnv
-from learner.domains.maze.generator import maze_set
-from learner.domains.maze.maze import ACTIONS, SUBGOALS, Cell, Maze, closed_rooms, moved
-from learner.experts.oracle import OracleExpert
-from server import kinds, wire
 from tests.learner.kit import drawn_mazes, examples, solved
+
+from waypost import wire
+from waypost.domain import find_domain
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.env import MazeEnv
+from waypost_learner.domains.maze.generator import maze_set
+from waypost_learner.domains.maze.maze import ACTIONS, SUBGOALS, Cell, Maze, closed_rooms, moved
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_server.queries import kinds
 
 NORTH, SOUTH, WEST, EAST, TARGET = SUBGOALS
 UP, DOWN, LEFT, RIGHT = ACTIONS

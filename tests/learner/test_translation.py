@@ -4,13 +4,15 @@ from typing import Any
 
 import pytest
 
-from learner.domains.corridor import Corridor, CorridorDomain
-from learner.experts.oracle import OracleExpert
-from learner.queries import HierDemo, InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, LoLabels
-from learner.simulator import Simulator
-from learner.translation import Translator, vocabulary
-from learner.types import Segment, Trajectory
-from server import kinds, wire
+from waypost import wire
+from waypost.trajectory import Segment, Trajectory
+from waypost_learner.algorithms.queries import HierDemo, InspectFull, InspectLo, LabelFull, LabelHi, LabelLo
+from waypost_learner.domains.corridor import Corridor, CorridorDomain
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.policies.datasets import LoLabels
+from waypost_learner.remote.translation import Translator, vocabulary
+from waypost_learner.rollout.simulator import Simulator
+from waypost_server.queries import kinds
 
 WEST, EAST, TARGET = range(3)
 domain = CorridorDomain()
