@@ -1,5 +1,3 @@
-from waypost_learner.policies.datasets import LoLabels
-
 """A learner: which policies it has, what each is given to see, and what it learns from."""
 
 from dataclasses import replace
@@ -17,7 +15,7 @@ from waypost_learner.algorithms.learner import Learner, Structure
 from waypost_learner.domains.corridor import CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.views import LO_VIEW
-from waypost_learner.policies.datasets import UNLABELED, Labels
+from waypost_learner.policies.datasets import UNLABELED, Labels, LoLabels
 from waypost_learner.policies.imitation import Policy, TrainSpec
 from waypost_learner.policies.networks import ConvNet, DenseNet, PlanningNet
 from waypost_learner.rollout.policy_keys import META

@@ -15,6 +15,7 @@ __all__ = [
     "AssignmentList",
     "Lease",
     "Leave",
+    "Price",
     "Receipt",
     "Release",
     "Renew",
@@ -49,6 +50,17 @@ class Lease(Message):
     tab: Tab | None = Field(default=None, description="The page that asks, so that it can give back all it holds.")
 
 
+class Price(Message):
+    """The price of an answer: `fixed` + `per_action` x its actions + `per_segment` x its segments, in units.
+
+    Only the price of a demonstration depends on the answer; every other kind has a `fixed` price.
+    """
+
+    fixed: float
+    per_action: float
+    per_segment: float
+
+
 class Assignment(Message):
     """One query handed to one annotator under a lease. Only `token` and an unexpired lease can answer it."""
 
@@ -56,6 +68,7 @@ class Assignment(Message):
     token: str
     query: Query
     run: Run
+    price: Price = Field(description="What the answer will cost.")
     leased_at: float
     expires_at: float
     lease_seconds: float

@@ -1,10 +1,11 @@
 """What all messages are made of."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field
 
 __all__ = [
+    "KINDS",
     "FrameHash",
     "GoldRate",
     "Kind",
@@ -19,6 +20,7 @@ __all__ = [
 ]
 
 Kind = Literal["hier_demo", "inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
 Verdict = Literal["pass", "fail"]
 RunState = Literal["running", "paused", "finished"]
 QueryState = Literal["open", "leased", "answered", "cancelled"]

@@ -9,7 +9,9 @@ from typing import Any
 
 from sqlalchemy import Row, bindparam, insert, select, update
 
+from waypost import prices as pricing
 from waypost import wire
+from waypost.prices import Cost, to_units
 from waypost_server import errors
 from waypost_server.db import canonical
 from waypost_server.db.engine import Tx
@@ -19,11 +21,11 @@ from waypost_server.db.tables import queries as query_table
 from waypost_server.gold import schedule
 from waypost_server.leases import active_time
 from waypost_server.leases import service as leases
-from waypost_server.queries import kinds
+from waypost_server.queries import checks
 from waypost_server.queries import service as queries
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
-from waypost_server.runs.ledger import Cost, Entry, to_units
+from waypost_server.runs.ledger import Entry
 from waypost_server.settings import Settings
 
 
@@ -87,8 +89,8 @@ def answer(tx: Tx, post: Post, wish: leases.Wish | None) -> Outcome:
     earlier = tx.conn.execute(_GIVEN, {"assignment": post.assignment}).one_or_none()
     if earlier is not None:
         return _again(tx, case, earlier, wish)
-    words = kinds.Words.of(wire.Vocabulary.model_validate_json(case.run.vocabulary))
-    kinds.check_answer(case.ask, post.answer, words, ["body", "answer"])
+    names = checks.Names.of(wire.Vocabulary.model_validate_json(case.run.vocabulary))
+    checks.check_answer(case.ask, post.answer, names, ["body", "answer"])
     try:
         leases.refuse_ended(case.held, tx.now)
     except errors.Conflict as refusal:
@@ -133,7 +135,7 @@ def _again(tx: Tx, case: Case, earlier: Row[Any], wish: leases.Wish | None) -> O
 
 def _accept(tx: Tx, post: Post, case: Case, wish: leases.Wish | None) -> wire.Receipt:
     """Store, charge and close."""
-    cost = kinds.cost(post.answer, wire.Prices.model_validate_json(case.run.prices))
+    cost = pricing.cost(post.answer, wire.Prices.model_validate_json(case.run.prices))
     stored = _store(tx, post, case, case.query.revision, cost)
     if case.run.gold_of is not None:
         schedule.score(tx, case.query.id, post.answer)

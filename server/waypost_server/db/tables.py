@@ -21,6 +21,8 @@ from sqlalchemy import (
     text,
 )
 
+from waypost.wire import KINDS
+
 metadata = MetaData(
     naming_convention={
         "pk": "pk_%(table_name)s",
@@ -39,8 +41,6 @@ def one_of(column: str, *values: str) -> CheckConstraint:
     words = ", ".join(f"'{value}'" for value in values)
     return CheckConstraint(f"{column} IN ({words})", name=column)
 
-
-KIND_WORDS = ("hier_demo", "inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
 
 users = Table(
     "users",
@@ -126,7 +126,7 @@ queries = Table(
     Column("created_at", Float, nullable=False),
     # Who answered its episode last when it was asked; kept here, or handing out would read all answers of an episode.
     Column("follows_user_id", RowId, ForeignKey("users.id")),
-    one_of("kind", *KIND_WORDS),
+    one_of("kind", *KINDS),
     # open -> leased -> answered | cancelled; leased -> open: given back or expired; answered -> leased: retracted.
     one_of("state", "open", "leased", "answered", "cancelled"),
     CheckConstraint("(state = 'answered') = (answer_id IS NOT NULL)", name="answered"),
@@ -218,7 +218,7 @@ ledger = Table(
     Column("active_seconds", Float, nullable=False),
     Column("created_at", Float, nullable=False),
     one_of("entry", "charge", "refund"),
-    one_of("kind", *KIND_WORDS),
+    one_of("kind", *KINDS),
     UniqueConstraint("answer_id", "entry"),
     CheckConstraint(
         "(entry = 'charge' AND lo_units >= 0 AND units >= lo_units) OR "
@@ -313,7 +313,7 @@ gold = Table(
     Column("author_id", RowId, ForeignKey("users.id")),
     Column("created_at", Float, nullable=False),
     Column("retired_at", Float),
-    one_of("kind", *KIND_WORDS),
+    one_of("kind", *KINDS),
     UniqueConstraint("run_id", "digest"),
     sqlite_autoincrement=True,
 )

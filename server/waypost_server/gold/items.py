@@ -18,7 +18,7 @@ from waypost_server.db.tables import answers, gold, probes, users
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as run_table
 from waypost_server.gold import scoring
-from waypost_server.queries import kinds
+from waypost_server.queries import checks
 from waypost_server.queries import service as queries
 from waypost_server.runs import service as runs
 
@@ -48,12 +48,12 @@ def add(tx: Tx, run: str, wanted: wire.GoldPost) -> wire.GoldList:
         NotFound, NotAnswered, Unprocessable: for a query that is not the run's, has no answer, or cannot be gold.
     """
     row = runs.lock(tx, run)
-    words = kinds.Words.of(wire.Vocabulary.model_validate_json(row.vocabulary))
+    names = checks.Names.of(wire.Vocabulary.model_validate_json(row.vocabulary))
     items = [_answered(tx, run, query) for query in wanted.answered]
     for place, one in enumerate(wanted.known):
         at: list[str | int] = ["body", "known", place]
-        kinds.check_ask(one.ask, words, [*at, "ask"])
-        scoring.check(one.ask, one.known, words, [*at, "known"])
+        checks.check_ask(one.ask, names, [*at, "ask"])
+        scoring.check(one.ask, one.known, names, [*at, "known"])
         items.append(Item(one.ask, one.known))
     _ensure_shadow(tx, row)
     for item in items:

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ValidationError
 from waypost import wire
 from waypost_server import errors
 from waypost_server.gold import scoring
-from waypost_server.queries import kinds
+from waypost_server.queries import checks
 
 SHIPPED = Path(__file__).with_name("practice.json")
 
@@ -42,7 +42,7 @@ class PracticeSet:
         chosen = path or SHIPPED
         try:
             self._file = PracticeFile.model_validate_json(chosen.read_bytes())
-            self._words = kinds.Words.of(self._file.vocabulary)
+            self._names = checks.Names.of(self._file.vocabulary)
             for place, one in enumerate(self._file.exercises):
                 self._check(one, ["exercises", place])
         except (OSError, ValidationError, errors.Unprocessable) as error:
@@ -50,8 +50,8 @@ class PracticeSet:
             raise BadPractice(f"{chosen} holds no practice queries: {reason}; `waypost practice` makes them.") from None
 
     def _check(self, one: Exercise, at: errors.Location) -> None:
-        kinds.check_ask(one.ask, self._words, [*at, "ask"])
-        scoring.check(one.ask, one.known, self._words, [*at, "known"])
+        checks.check_ask(one.ask, self._names, [*at, "ask"])
+        scoring.check(one.ask, one.known, self._names, [*at, "known"])
 
     def questions(self) -> wire.Practice:
         """Return the queries, without what is right."""
@@ -68,6 +68,6 @@ class PracticeSet:
         if query >= len(exercises):
             raise errors.NotFound(f"There is no practice query {query}.")
         one = exercises[query]
-        kinds.check_answer(one.ask, answer, self._words, ["body", "answer"])
+        checks.check_answer(one.ask, answer, self._names, ["body", "answer"])
         marks = scoring.marks(one.known, answer)
         return wire.Feedback(marks=marks, reasons=one.reasons, is_right=all(mark.is_right for mark in marks))

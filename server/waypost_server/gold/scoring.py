@@ -11,7 +11,7 @@ from pydantic import TypeAdapter
 
 from waypost import wire
 from waypost_server.errors import Location, Unprocessable
-from waypost_server.queries import kinds
+from waypost_server.queries import checks
 
 KNOWN: TypeAdapter[wire.Known] = TypeAdapter(wire.Known)
 
@@ -41,26 +41,26 @@ def exactly(answer: wire.Answer) -> wire.Known:
             assert_never(answer)
 
 
-def check(ask: wire.Ask, known: wire.Known, words: kinds.Words, at: Location) -> None:
+def check(ask: wire.Ask, known: wire.Known, names: checks.Names, at: Location) -> None:
     """Refuse what cannot be right for a query: another kind, another length, names the run does not have."""
     if known.kind != ask.kind:
         raise Unprocessable([*at, "kind"], f"is {known.kind}; the query is {ask.kind}")
     match known, ask:
         case wire.KnownSubgoals(), wire.AskLabelHi():
-            kinds.check_length(known.subgoals, len(ask.segments), [*at, "subgoals"], "segments")
+            checks.check_length(known.subgoals, len(ask.segments), [*at, "subgoals"], "segments")
             for name in chain.from_iterable(known.subgoals):
-                words.check_subgoal(name, [*at, "subgoals"])
+                names.check_subgoal(name, [*at, "subgoals"])
         case wire.KnownSegment(), wire.AskLabelLo():
             n_actions = len(ask.segments[0].actions)
             if known.end is not None and known.end > n_actions:
                 raise Unprocessable([*at, "end"], f"is {known.end}; the last state is {n_actions}")
             before = n_actions if known.end is None else known.end
-            kinds.check_length(known.actions, before, [*at, "actions"], "states before the end")
-            words.check_actions([*chain.from_iterable(known.actions)], [*at, "actions"])
+            checks.check_length(known.actions, before, [*at, "actions"], "states before the end")
+            names.check_actions([*chain.from_iterable(known.actions)], [*at, "actions"])
         case wire.KnownActions(), wire.AskLabelFull():
-            n_actions = kinds.n_actions_of(ask.segments)
-            kinds.check_length(known.actions, n_actions, [*at, "actions"], "actions")
-            words.check_actions([*chain.from_iterable(known.actions)], [*at, "actions"])
+            n_actions = checks.n_actions_of(ask.segments)
+            checks.check_length(known.actions, n_actions, [*at, "actions"], "actions")
+            names.check_actions([*chain.from_iterable(known.actions)], [*at, "actions"])
 
 
 def marks(known: wire.Known, answer: wire.Answer) -> list[wire.Mark]:

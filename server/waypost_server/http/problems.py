@@ -18,7 +18,6 @@ from waypost_server.errors import Refusal
 log = logging.getLogger("waypost")
 
 MEDIA_TYPE = "application/problem+json"
-KINDS = frozenset({"hier_demo", "inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full"})
 
 
 def document(status: int, name: str, title: str, detail: str, **more: Any) -> dict[str, Any]:
@@ -43,7 +42,7 @@ def render(refusal: Refusal, instance: str | None = None) -> JSONResponse:
 def field_path(location: tuple[str | int, ...]) -> list[str | int]:
     """Return where a field is, without the tags pydantic adds for the members of a union."""
     last = len(location) - 1
-    return [part for place, part in enumerate(location) if place == last or part not in KINDS]
+    return [part for place, part in enumerate(location) if place == last or part not in wire.KINDS]
 
 
 def invalid(error: RequestValidationError) -> dict[str, Any]:

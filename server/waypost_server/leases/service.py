@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from sqlalchemy import bindparam, insert, select, update
 from sqlalchemy.sql.elements import ColumnElement
 
+from waypost import prices as pricing
 from waypost import wire
 from waypost_server import errors
 from waypost_server.db import wakeups
@@ -247,11 +248,13 @@ def view(tx: Tx, assignment: int) -> wire.Assignment:
     """Return an assignment as its owner sees it."""
     row = tx.conn.execute(_FIND, {"assignment": assignment}).one()
     query = queries.view(tx, row.query_id)
+    run = runs.view(tx, query.run)
     return wire.Assignment(
         id=row.id,
         token=row.token,
         query=query,
-        run=runs.view(tx, query.run),
+        run=run,
+        price=pricing.price(query.ask, run.prices),
         leased_at=row.leased_at,
         expires_at=row.expires_at,
         lease_seconds=row.expires_at - row.leased_at,

@@ -12,7 +12,7 @@ from waypost import wire
 from waypost_server import errors
 from waypost_server.db.engine import Tx
 from waypost_server.leases import service as leases
-from waypost_server.queries import kinds
+from waypost_server.queries import checks
 from waypost_server.queries import service as queries
 from waypost_server.runs import service as runs
 
@@ -32,7 +32,7 @@ class Demonstration:
     """What moves are checked against."""
 
     ask: wire.AskHierDemo
-    words: kinds.Words
+    names: checks.Names
 
 
 def read(schema: TypeAdapter[M], text: str) -> M:
@@ -89,13 +89,13 @@ def check_moves(demonstration: Demonstration, moves: wire.PlayMoves) -> None:
     """
     if moves.segments:
         answer = wire.HierDemoAnswer(kind="hier_demo", segments=moves.segments)
-        kinds.check_answer(demonstration.ask, answer, demonstration.words, [])
+        checks.check_answer(demonstration.ask, answer, demonstration.names, [])
 
 
 def _demonstration(tx: Tx, query: wire.Query) -> Demonstration:
     if not isinstance(query.ask, wire.AskHierDemo):
         raise errors.NotPlayable(f"Query {query.id} is {query.ask.kind}; only demonstrations are played.")
-    return Demonstration(query.ask, kinds.Words.of(runs.view(tx, query.run).vocabulary))
+    return Demonstration(query.ask, checks.Names.of(runs.view(tx, query.run).vocabulary))
 
 
 class Pace:

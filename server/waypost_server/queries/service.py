@@ -8,16 +8,17 @@ from fastapi import Path
 from pydantic import TypeAdapter
 from sqlalchemy import Row, Select, and_, bindparam, func, insert, select, tuple_, update
 
+from waypost import prices as pricing
 from waypost import wire
+from waypost.prices import to_units
 from waypost_server import errors
 from waypost_server.db import canonical, wakeups
 from waypost_server.db.engine import Tx
 from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
 from waypost_server.db.tables import runs as run_table
-from waypost_server.queries import frames, kinds
+from waypost_server.queries import checks, frames
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
-from waypost_server.runs.ledger import to_units
 
 QueryId = Annotated[int, Path(ge=1, le=2**63 - 1)]
 
@@ -153,7 +154,7 @@ def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_
     if new:
         _check_new(tx, run_row, body, new, most_open)
         prices = wire.Prices.model_validate_json(run_row.prices)
-        reserves = [kinds.reserve(one.ask, prices) for one in new]
+        reserves = [pricing.highest_cost(one.ask, prices).units for one in new]
         ledger.reserve(tx, runs.account(run_row), sum(reserves))
         ids = _insert(tx, run_row, new, body.priority, reserves)
         known |= {one.key: (query, one.digest) for one, query in zip(new, ids, strict=True)}
@@ -193,9 +194,9 @@ def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, st
 def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Content], most_open: int) -> None:
     if run_row.state == "finished":
         raise errors.RunFinished("The run is finished; it asks nothing more.")
-    words = kinds.Words.of(wire.Vocabulary.model_validate_json(run_row.vocabulary))
+    names = checks.Names.of(wire.Vocabulary.model_validate_json(run_row.vocabulary))
     for one in new:
-        kinds.check_ask(one.ask, words, ["body", "queries", body.queries.index(one.ask)])
+        checks.check_ask(one.ask, names, ["body", "queries", body.queries.index(one.ask)])
     frames.check_stored(tx, [one.ask for one in new])
     waiting = select(func.count()).where(queries.c.run_id == run_row.id, queries.c.state.in_(runs.UNANSWERED))
     n_open = tx.conn.execute(waiting).scalar_one()

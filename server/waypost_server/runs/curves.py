@@ -5,18 +5,16 @@ from collections import defaultdict, deque
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
-from typing import cast
 
 from sqlalchemy import func, select
 
 from waypost import wire
+from waypost.prices import to_units
 from waypost_server.db.engine import Tx
-from waypost_server.db.tables import KIND_WORDS, episodes, ledger
+from waypost_server.db.tables import episodes, ledger
 from waypost_server.runs import service as runs
-from waypost_server.runs.ledger import to_units
 
 LEVELS = ("0.8", "0.9", "0.95", "0.99")
-KINDS = cast(tuple[wire.Kind, ...], KIND_WORDS)
 
 
 @dataclass(frozen=True)
@@ -109,7 +107,7 @@ def curves(tx: Tx, run: str, after: int = -1) -> wire.Curves:
         lo_cost=_units(_cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent)))[first:],
         seconds=_cumulative(reported, ((entry.episode, entry.seconds) for entry in spent))[first:],
         active_seconds=_cumulative(reported, ((entry.episode, entry.active_seconds) for entry in spent))[first:],
-        cost_by_kind={kind: _units(_cumulative(reported, by_kind[kind]))[first:] for kind in KINDS},
+        cost_by_kind={kind: _units(_cumulative(reported, by_kind[kind]))[first:] for kind in wire.KINDS},
         hi_labels=[result.hi_labels for result in results[first:]],
         lo_samples=list(accumulate(result.train_steps for result in results))[first:],
         learner_seconds=list(accumulate(result.seconds for result in results))[first:],
@@ -125,7 +123,7 @@ def costs(tx: Tx, run: str) -> wire.Costs:
     row = runs.find(tx, run)
     reported, tests = _tests(tx, run)
     spent = _ledger(tx, run)
-    by_kind = {kind: _sum([entry for entry in spent if entry.kind == kind]) for kind in KINDS}
+    by_kind = {kind: _sum([entry for entry in spent if entry.kind == kind]) for kind in wire.KINDS}
     total = _sum(spent)
     cost = _units(_cumulative(reported, ((entry.episode, entry.units) for entry in spent)))
     return wire.Costs(

@@ -4,20 +4,12 @@ from dataclasses import dataclass
 
 from sqlalchemy import bindparam, insert, update
 
+from waypost.prices import MICRO, Cost, to_units
 from waypost_server import errors
 from waypost_server.db.engine import Tx
 from waypost_server.db.tables import ledger, runs
 
-MICRO = 1_000_000
 CEILING = 10**12 * MICRO  # what a run without a budget may cost: sums stay well inside 64 bits
-
-
-@dataclass(frozen=True)
-class Cost:
-    """What an answer costs, in micro-units; `lo` is the part for actions and terminations."""
-
-    units: int
-    lo: int = 0
 
 
 @dataclass(frozen=True)
@@ -55,16 +47,6 @@ _CHANGE = (
     .where(runs.c.id == bindparam("run"))
     .values(spent=runs.c.spent + bindparam("more_spent"), reserved=runs.c.reserved + bindparam("more_reserved"))
 )
-
-
-def to_micro(units: float) -> int:
-    """Return units as whole micro-units."""
-    return round(units * MICRO)
-
-
-def to_units(micro: int) -> float:
-    """Return micro-units as units."""
-    return micro / MICRO
 
 
 def reserve(tx: Tx, account: Account, amount: int) -> None:

@@ -8,12 +8,13 @@ from typing import Any
 from sqlalchemy import Float, Row, Select, bindparam, cast, func, insert, select, update
 
 from waypost import wire
+from waypost.prices import to_micro, to_units
 from waypost_server import errors
 from waypost_server.db import canonical, wakeups
 from waypost_server.db.engine import Tx
 from waypost_server.db.tables import IS_LIVE, assignments, episodes, queries, runs
 from waypost_server.runs import events, ledger
-from waypost_server.runs.ledger import Account, to_micro, to_units
+from waypost_server.runs.ledger import Account
 
 TRAILING = 100  # test episodes the success rate is taken over
 UNANSWERED = ("open", "leased")

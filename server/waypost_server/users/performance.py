@@ -7,9 +7,9 @@ from typing import Any
 from sqlalchemy import Row, Select, and_, case, func, select
 
 from waypost import wire
+from waypost.prices import to_units
 from waypost_server.db.engine import Tx
 from waypost_server.db.tables import answers, probes, queries, users
-from waypost_server.runs.ledger import to_units
 from waypost_server.users.service import DAY
 
 WEEK_DAYS = 7

@@ -10,10 +10,10 @@ from sqlalchemy import Row, Select, bindparam, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from waypost import wire
+from waypost.prices import to_units
 from waypost_server import errors
 from waypost_server.db.engine import Tx
 from waypost_server.db.tables import answers, credentials, queries, users
-from waypost_server.runs.ledger import to_units
 
 CredentialKind = Literal["api", "session", "login"]
 

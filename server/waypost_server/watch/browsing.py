@@ -9,11 +9,11 @@ from sqlalchemy import ColumnElement, Row, Select, and_, func, or_, select, tupl
 from sqlalchemy.sql.selectable import FromClause
 
 from waypost import wire
+from waypost.prices import to_units
 from waypost_server.db.engine import Tx
 from waypost_server.db.tables import IS_LIVE, answers, assignments, ledger, queries, users
 from waypost_server.queries.service import ANSWER, view
 from waypost_server.runs import service as runs
-from waypost_server.runs.ledger import to_units
 
 
 @dataclass(frozen=True)

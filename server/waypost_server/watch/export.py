@@ -48,7 +48,7 @@ QUERY_COLUMNS = (
 _COST = "cost_"
 CURVE_COLUMNS = (
     *(name for name in wire.Curves.model_fields if name != "cost_by_kind"),
-    *(f"{_COST}{kind}" for kind in curves.KINDS),
+    *(f"{_COST}{kind}" for kind in wire.KINDS),
 )
 COLUMNS: Mapping[wire.ExportTable, Sequence[str]] = {
     "curves": CURVE_COLUMNS,

@@ -4,9 +4,9 @@ from collections.abc import Iterable
 
 from sqlalchemy import func, select
 
+from waypost.prices import to_units
 from waypost_server.db.engine import Tx
 from waypost_server.db.tables import answers, assignments, ledger, queries, runs
-from waypost_server.runs.ledger import to_units
 
 
 def probe(tx: Tx) -> None:

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from math import log2
 
+from waypost import prices as pricing
 from waypost import wire
+from waypost.prices import to_units
 from waypost_learner.experiments.theory.classes import Cell
-from waypost_server.queries import kinds
-from waypost_server.runs.ledger import to_units
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ def operation_costs(cell: Cell, prices: wire.Prices) -> OperationCosts:
     """Return what answers as long as the horizons cost."""
 
     def units(answer: wire.Answer) -> float:
-        return to_units(kinds.cost(answer, prices).units)
+        return to_units(pricing.cost(answer, prices).units)
 
     terminations = [False] * (cell.h_lo + 1)
     return OperationCosts(

@@ -12,8 +12,10 @@ from typing import Any, Literal, cast
 
 import numpy as np
 
+from waypost import prices as pricing
 from waypost import wire
 from waypost.domain import Domain
+from waypost.prices import to_units
 from waypost.trajectory import Segment, State, Trajectory
 from waypost_learner.algorithms.flat_dagger import flat_dagger
 from waypost_learner.algorithms.hg_dagger import hg_dagger
@@ -28,8 +30,6 @@ from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.policies.datasets import Labels
 from waypost_learner.remote.translation import Translator
 from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
-from waypost_server.queries import kinds
-from waypost_server.runs.ledger import to_units
 
 Episodes = Literal["worst", "random"]
 """Where episodes come from: an adversary who knows the learner, or chance."""
@@ -104,7 +104,7 @@ class PricedExpert:
                 ask = translator.ask(episode.send(answer), number, ordinal)
                 said = self._expert(ask)
                 self.asked[ask.kind] += 1
-                self.spent[ask.kind] += kinds.cost(said, self._prices).units
+                self.spent[ask.kind] += pricing.cost(said, self._prices).units
                 answer = translator.answer(said)
         except StopIteration as over:
             labels: Labels = over.value
