@@ -12,6 +12,7 @@ FROM python:3.13-slim AS wheel
 WORKDIR /src
 RUN python -m venv /opt/waypost
 COPY pyproject.toml README.md LICENSE ./
+COPY sdk/ sdk/
 COPY server/ server/
 COPY learner/ learner/
 COPY web/hatch_build.py web/

@@ -25,10 +25,10 @@ help:
 # --- what a reader types
 
 demo: $(VENV)/.learner $(if $(filter yes,$(shell scripts/page-is-current)),,web/dist/index.html)
-	@exec $(PYTHON) -m learner.cli demo $(ARGS)
+	@exec $(PYTHON) -m waypost_learner.cli demo $(ARGS)
 
 serve: $(VENV)/.base $(if $(filter yes,$(shell scripts/page-is-current)),,web/dist/index.html)
-	@exec $(PYTHON) -m learner.cli serve $(ARGS)
+	@exec $(PYTHON) -m waypost_learner.cli serve $(ARGS)
 
 web: web/dist/index.html
 
@@ -61,9 +61,9 @@ bench: $(VENV)/.dev $(PEERS)/.installed
 	@set -e; for file in bench/*.py; do echo "== $$file"; PYTHONPATH=. $(PYTHON) "$$file" $(ARGS); done
 
 clean:
-	rm -rf $(VENV) web/node_modules web/dist server/static .mypy_cache .ruff_cache .pytest_cache .import_linter_cache \
+	rm -rf $(VENV) web/node_modules web/dist server/waypost_server/static .mypy_cache .ruff_cache .pytest_cache .import_linter_cache \
 	  .hypothesis build dist
-	find server learner tests bench -name __pycache__ -type d -prune -exec rm -rf {} +
+	find sdk server learner tests bench -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # --- how it is set up; a stamp says that a step is done for what is in pyproject.toml or package-lock.json now
 

@@ -23,10 +23,10 @@ from pathlib import Path
 from typing import Any
 
 import httpx2
-
-from server import people
-from server.database import Database
 from tests.conftest import Cluster, postgresql_binaries
+
+from waypost_server.db.engine import Database
+from waypost_server.users import service as users
 
 ANNOTATORS = (1, 8, 32)
 BATCH = 100  # queries asked at a time
@@ -50,13 +50,13 @@ def serving(database: str) -> Iterator[tuple[str, int, dict[str, str], list[dict
     db = Database(database)
 
     def headers(name: str, role: Any) -> dict[str, str]:
-        user = db.write_now(lambda tx: people.ensure_user(tx, name, role))
-        return {"Authorization": f"Bearer {db.write_now(lambda tx: people.create_token(tx, user.id, '')).token}"}
+        user = db.write_now(lambda tx: users.ensure_user(tx, name, role))
+        return {"Authorization": f"Bearer {db.write_now(lambda tx: users.create_token(tx, user.id, '')).token}"}
 
     learner = headers("learner", "learner")
     annotators = [headers(f"annotator{n}", "annotator") for n in range(max(ANNOTATORS))]
     db.close()
-    command = [sys.executable, "-u", "-m", "server.cli", "serve", "--port", "0", "--database", database]
+    command = [sys.executable, "-u", "-m", "waypost_server.cli", "serve", "--port", "0", "--database", database]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         url = process.stdout.readline().split()[-1]

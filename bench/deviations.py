@@ -17,17 +17,18 @@ from typing import Any
 import numpy as np
 import torch
 
-from learner.datasets import UNLABELED, Dataset, Labels, Row
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.env import TRAIL
-from learner.domains.maze.maze import SUBGOALS
-from learner.experts.oracle import OracleExpert
-from learner.policies import Policy, TrainSpec
-from learner.presets.paper import PAPER
-from learner.simulator import Simulator
-from learner.translation import Translator
-from learner.types import META, Trajectory
-from server import wire
+from waypost import wire
+from waypost.trajectory import Trajectory
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.env import TRAIL
+from waypost_learner.domains.maze.maze import SUBGOALS
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.policies.datasets import UNLABELED, Dataset, Labels, Row
+from waypost_learner.policies.imitation import Policy, TrainSpec
+from waypost_learner.presets.paper import PAPER
+from waypost_learner.remote.translation import Translator
+from waypost_learner.rollout.policy_keys import META
+from waypost_learner.rollout.simulator import Simulator
 
 DOMAIN = MazeDomain()
 ORACLE = OracleExpert(DOMAIN)

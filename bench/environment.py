@@ -17,12 +17,12 @@ from pathlib import Path
 
 import gymnasium
 import numpy as np
-
 from bench.peers.client import Missing, Peer
 from bench.peers.stepping import random_steps
-from learner.domains.maze.env import AGENT, LAVA, MAX_STEPS, TARGET, TRAIL, MazeEnv
-from learner.domains.maze.generator import maze_set
-from learner.domains.maze.maze import MOVES, SIZE
+
+from waypost_learner.domains.maze.env import AGENT, LAVA, MAX_STEPS, TARGET, TRAIL, MazeEnv
+from waypost_learner.domains.maze.generator import maze_set
+from waypost_learner.domains.maze.maze import MOVES, SIZE
 
 BATCH = 16
 ROUNDS = 5

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from person import answered
 
-from learner.training import embedded
-from server import wire
+from waypost import wire
+from waypost_learner.runs.training import embedded
 
 
 def kept(query: wire.Query) -> int:

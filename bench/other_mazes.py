@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from learner import checkpoints
-from learner.domains.maze.files import save_mazes
-from learner.domains.maze.maze import Maze, closed_rooms, distances_from, room_of, walls
-from learner.evaluation import evaluate
-from learner.training import build_learner
+from waypost_learner.domains.maze.files import save_mazes
+from waypost_learner.domains.maze.maze import Maze, closed_rooms, distances_from, room_of, walls
+from waypost_learner.runs import checkpoints
+from waypost_learner.runs.evaluation import evaluate
+from waypost_learner.runs.training import build_learner
 
 N = 300  # of each kind drawn here
 _WALLS = list(walls())

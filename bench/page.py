@@ -17,9 +17,8 @@ from pathlib import Path
 from typing import Any
 
 import httpx2
-from playwright.sync_api import Browser, BrowserContext, Page, Response, sync_playwright
-
 from bench.assignments import machine, serving
+from playwright.sync_api import Browser, BrowserContext, Page, Response, sync_playwright
 from tests.browser.conftest import FLAGS, WEB, WIDE
 from tests.browser.kit import VOCABULARY, ask, find_chromium
 

@@ -9,9 +9,9 @@ import argparse
 from collections import Counter, defaultdict
 from pathlib import Path
 
-from learner.client import Client
-from learner.training import embedded
-from server import wire
+from waypost import wire
+from waypost.client import Client
+from waypost_learner.runs.training import embedded
 
 WATCHING = 3.0  # seconds to see what a question is about, an episode played at the page's own pace
 SECONDS: dict[wire.Kind, float] = {  # of one decision

@@ -12,14 +12,14 @@ import tempfile
 from pathlib import Path
 
 from playwright.sync_api import Page, sync_playwright
-
-from learner.domains.maze.domain import MazeDomain
-from learner.experts.oracle import OracleExpert
-from server import wire
 from tests.acceptance.person import ARROWS
 from tests.acceptance.processes import ServerProcess, free_port, start_learner
 from tests.browser.conftest import FLAGS, WIDE
 from tests.browser.kit import find_chromium
+
+from waypost import wire
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.experts.oracle import OracleExpert
 
 RUN = ("h-bc", "--instances", "corners", "--episodes", "100")
 WATCH = """() => {

@@ -22,17 +22,17 @@ from pathlib import Path
 
 import numpy as np
 import torch
-from torch import nn
-
 from bench.peers.client import Missing, Peer
 from bench.peers.network import table_1
-from learner.datasets import Dataset, Row
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.generator import maze_set
-from learner.domains.maze.maze import SUBGOALS
-from learner.policies import Policy
-from learner.presets.paper import PAPER
-from learner.simulator import Simulator
+from torch import nn
+
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.generator import maze_set
+from waypost_learner.domains.maze.maze import SUBGOALS
+from waypost_learner.policies.datasets import Dataset, Row
+from waypost_learner.policies.imitation import Policy
+from waypost_learner.presets.paper import PAPER
+from waypost_learner.rollout.simulator import Simulator
 
 ROUNDS = 5
 SPEC = PAPER.train_hi

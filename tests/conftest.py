@@ -12,8 +12,8 @@ from typing import Any
 
 import pytest
 
-from server import serving
-from server.settings import Settings
+from waypost_server import serving
+from waypost_server.settings import Settings
 
 _numbers = count()
 

@@ -1,4 +1,4 @@
-"""Hatchling hook: puts the built page into the wheel, as `server/static`."""
+"""Hatchling hook: puts the built page into the wheel, as `waypost_server/static`."""
 
 import shutil
 import subprocess
@@ -19,7 +19,7 @@ class PageBuildHook(BuildHookInterface):
         built = web / "dist"
         if not (built / "index.html").is_file():
             build_page(web)
-        build_data["force_include"][str(built)] = "server/static"
+        build_data["force_include"][str(built)] = "waypost_server/static"
 
 
 def build_page(web: Path) -> None:

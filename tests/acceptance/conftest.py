@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page, sync_playwright
-
-from learner.training import embedded
 from tests.acceptance.processes import LENGTH, VALUES, Reference, ServerProcess, free_port, history, run_waypost
 from tests.browser.conftest import FLAGS, WIDE
 from tests.browser.kit import Complaints, find_chromium
+
+from waypost_learner.runs.training import embedded
 
 
 @pytest.fixture

@@ -4,10 +4,10 @@ from collections.abc import Callable, Sequence
 
 from playwright.sync_api import Page
 
-from learner.client import Client
-from learner.domains.base import find_domain
-from learner.experts.oracle import OracleExpert
-from server import wire
+from waypost import wire
+from waypost.client import Client
+from waypost.domain import find_domain
+from waypost_learner.experts.oracle import OracleExpert
 
 ARROWS = {"up": "ArrowUp", "down": "ArrowDown", "left": "ArrowLeft", "right": "ArrowRight"}
 POLL_MILLISECONDS = 10

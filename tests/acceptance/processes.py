@@ -13,10 +13,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from learner.client import Client
-from server import wire
+from waypost import wire
+from waypost.client import Client
 
-WAYPOST = (sys.executable, "-m", "learner.cli")
+WAYPOST = (sys.executable, "-m", "waypost_learner.cli")
 
 
 def run_waypost(*arguments: str, env: dict[str, str] | None = None) -> str:

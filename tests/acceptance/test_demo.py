@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page, expect
-
 from tests.acceptance.processes import WAYPOST
 
 PATIENCE_MS = 60_000

@@ -3,10 +3,10 @@
 from collections import Counter
 
 from playwright.sync_api import Page
-
-from server import wire
 from tests.acceptance.person import Person
 from tests.acceptance.processes import VALUES, ServerProcess, answers, finished, start_learner
+
+from waypost import wire
 
 EPISODES, DEMONSTRATIONS = 8, 2
 SEED = ("--seed", "1")  # of few runs so short that ask every kind of query

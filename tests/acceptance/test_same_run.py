@@ -5,9 +5,6 @@ import threading
 import time
 
 from playwright.sync_api import Page
-
-from learner.bot import Bot, BotSettings
-from server import wire
 from tests.acceptance.person import Person
 from tests.acceptance.processes import (
     LENGTH,
@@ -20,6 +17,9 @@ from tests.acceptance.processes import (
     history,
     start_learner,
 )
+
+from waypost import wire
+from waypost_learner.experts.bot import Bot, BotSettings
 
 KILLS = 20
 

@@ -8,11 +8,12 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
-
-from server import serving, wire
-from server.serving import Served
-from server.settings import Settings
 from tests.browser.kit import Complaints, Learner, find_chromium, log_in
+
+from waypost import wire
+from waypost_server import serving
+from waypost_server.serving import Served
+from waypost_server.settings import Settings
 
 WEB = Path(__file__).resolve().parents[2] / "web"
 FLAGS = [

@@ -7,8 +7,9 @@ from typing import Any
 import httpx2
 from playwright.sync_api import BrowserContext, ConsoleMessage, Page, expect
 
-from server import people, wire
-from server.serving import Served
+from waypost import wire
+from waypost_server.serving import Served
+from waypost_server.users import service as users
 
 Json = dict[str, Any]
 Cell = tuple[int, int]
@@ -120,8 +121,8 @@ class Learner:
 
     def __init__(self, served: Served) -> None:
         self.served = served
-        user = served.db.write_now(lambda tx: people.ensure_user(tx, "learner", "learner"))
-        token = served.db.write_now(lambda tx: people.create_token(tx, user.id, "test")).token
+        user = served.db.write_now(lambda tx: users.ensure_user(tx, "learner", "learner"))
+        token = served.db.write_now(lambda tx: users.create_token(tx, user.id, "test")).token
         self._http = httpx2.Client(
             base_url=f"{served.url}/api/v1", headers={"Authorization": f"Bearer {token}"}, timeout=60
         )
@@ -187,8 +188,8 @@ class Learner:
 
 def login_link(served: Served, name: str, role: wire.Role) -> str:
     """A one-time link that logs a new person in."""
-    user = served.db.write_now(lambda tx: people.ensure_user(tx, name, role))
-    code = served.db.write_now(lambda tx: people.create_login(tx, user.id, 600)).code
+    user = served.db.write_now(lambda tx: users.ensure_user(tx, name, role))
+    code = served.db.write_now(lambda tx: users.create_login(tx, user.id, 600)).code
     return f"{served.url}/login#{code}"
 
 

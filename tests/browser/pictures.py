@@ -16,15 +16,16 @@ from pathlib import Path
 
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
-
-from learner.client import Client
-from learner.stage import offer
-from server import people, serving
-from server.serving import Served
-from server.settings import Settings
 from tests.browser import test_play
 from tests.browser.conftest import FLAGS, WEB, WIDE
 from tests.browser.kit import Learner, ask, find_chromium, log_in, wait_for_heading
+
+from waypost.client import Client
+from waypost_learner.remote.stage import offer
+from waypost_server import serving
+from waypost_server.serving import Served
+from waypost_server.settings import Settings
+from waypost_server.users import service as users
 
 SIZES = {
     "wide": WIDE,
@@ -99,8 +100,8 @@ class Gallery:
         """A demonstration under way."""
         run = self.learner.create_run("maze-lean")
         query = self.learner.ask(run, test_play.ask())[0]
-        user = self.served.db.write_now(lambda tx: people.ensure_user(tx, "learner", "learner"))
-        token = self.served.db.write_now(lambda tx: people.create_token(tx, user.id, "stage")).token
+        user = self.served.db.write_now(lambda tx: users.ensure_user(tx, "learner", "learner"))
+        token = self.served.db.write_now(lambda tx: users.create_token(tx, user.id, "stage")).token
         with closing(Client(self.served.url, token)) as client, ExitStack() as stack:
             stack.callback(offer(lambda: client.play(query), test_play.MAZE, client.upload))
             self.page.goto(f"/work?run={run}")

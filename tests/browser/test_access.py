@@ -4,7 +4,6 @@ from typing import Any
 
 import pytest
 from playwright.sync_api import Page, expect
-
 from tests.browser.conftest import WEB, Open
 from tests.browser.kit import Learner, ask, wait_for_heading
 

@@ -6,7 +6,6 @@ from statistics import median
 
 import pytest
 from playwright.sync_api import Page, expect
-
 from tests.browser.conftest import Open
 from tests.browser.kit import ROLLOUT, Json, Learner, ask, wait_for_heading
 

@@ -1,11 +1,11 @@
 """People in the page: let in, sent away, their tokens and numbers; practice; gold queries nobody can tell apart."""
 
 from playwright.sync_api import Page, expect
-
-from server.serving import Served
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, ask, wait_for_heading
 from tests.browser.test_access import violations
+
+from waypost_server.serving import Served
 
 QUESTION = ask("inspect_full")["question"]
 

@@ -9,21 +9,22 @@ from typing import Any
 
 import pytest
 from playwright.sync_api import Page, Route, expect
-
-from learner.camera import Camera
-from learner.client import Client
-from learner.domains.corridor import Corridor, CorridorDomain
-from learner.queries import LabelHi
-from learner.simulator import Simulator
-from learner.training import Connection, RunOptions, train
-from learner.translation import Translator, vocabulary
-from learner.types import Segment
-from server import people, wire
-from server.serving import Served
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, wait_for_heading
 from tests.browser.test_access import violations
 from tests.learner.kit import corridor
+
+from waypost import wire
+from waypost.client import Client
+from waypost.trajectory import Segment
+from waypost_learner.algorithms.queries import LabelHi
+from waypost_learner.domains.corridor import Corridor, CorridorDomain
+from waypost_learner.remote.camera import Camera
+from waypost_learner.remote.translation import Translator, vocabulary
+from waypost_learner.rollout.simulator import Simulator
+from waypost_learner.runs.training import Connection, RunOptions, train
+from waypost_server.serving import Served
+from waypost_server.users import service as users
 
 LABEL_HI = "Which subgoal was right at the start of each segment?"
 AGENTS_CELL = """async img => {
@@ -48,8 +49,8 @@ def agents_cell(page: Page) -> int:
 
 @contextmanager
 def client_of(served: Served) -> Iterator[Client]:
-    user = served.db.write_now(lambda tx: people.ensure_user(tx, "corridor-learner", "learner"))
-    client = Client(served.url, served.db.write_now(lambda tx: people.create_token(tx, user.id, "test")).token)
+    user = served.db.write_now(lambda tx: users.ensure_user(tx, "corridor-learner", "learner"))
+    client = Client(served.url, served.db.write_now(lambda tx: users.create_token(tx, user.id, "test")).token)
     yield client
     client.close()
 

@@ -8,21 +8,22 @@ import httpx2
 import pytest
 from playwright.sync_api import Locator, Page, expect
 from sqlalchemy import update
-
-from learner.client import Client
-from learner.domains.corridor import Corridor, CorridorDomain
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.maze import Maze
-from learner.queries import HierDemo
-from learner.simulator import Simulator
-from learner.stage import offer
-from learner.translation import Translator, vocabulary
-from server import people, serving
-from server.settings import Settings
-from server.tables import assignments
 from tests.browser.conftest import Open
 from tests.browser.kit import LETTERS, START, Complaints, Json, Learner, maze, wait_for_heading
 from tests.browser.test_access import SMALL, violations
+
+from waypost.client import Client
+from waypost_learner.algorithms.queries import HierDemo
+from waypost_learner.domains.corridor import Corridor, CorridorDomain
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.maze import Maze
+from waypost_learner.remote.stage import offer
+from waypost_learner.remote.translation import Translator, vocabulary
+from waypost_learner.rollout.simulator import Simulator
+from waypost_server import serving
+from waypost_server.db.tables import assignments
+from waypost_server.settings import Settings
+from waypost_server.users import service as users
 
 QUESTION = "Carry out the whole task, one subgoal after the other."
 KEYS = {"u": "ArrowUp", "d": "ArrowDown", "l": "ArrowLeft", "r": "ArrowRight"}
@@ -51,8 +52,8 @@ def stage() -> Iterator[Stage]:
     with ExitStack() as stack:
 
         def offered(served: serving.Served, query: int, translator: Translator = MAZE) -> Callable[[], None]:
-            user = served.db.write_now(lambda tx: people.ensure_user(tx, "learner", "learner"))
-            token = served.db.write_now(lambda tx: people.create_token(tx, user.id, "stage")).token
+            user = served.db.write_now(lambda tx: users.ensure_user(tx, "learner", "learner"))
+            token = served.db.write_now(lambda tx: users.create_token(tx, user.id, "stage")).token
             client = Client(served.url, token)
             stack.callback(client.close)
             withdraw = offer(lambda: client.play(query), translator, client.upload)

@@ -5,7 +5,6 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from playwright.sync_api import expect
-
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, ask, wait_for_heading
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Route, expect
-
-from server import serving
-from server.settings import Settings
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, ask, log_in, login_link, wait_for_heading
+
+from waypost_server import serving
+from waypost_server.settings import Settings
 
 QUESTION = ask("inspect_full")["question"]
 

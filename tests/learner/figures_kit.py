@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from learner.config import TrainConfig
-from learner.experiments import plan
-from learner.experiments.figures import measures
-from learner.experiments.figures.data import KINDS, Comparison, RunCurves
-from server import wire
-from server.curves import trailing
+from waypost import wire
+from waypost_learner.experiments import plan
+from waypost_learner.experiments.figures import measures
+from waypost_learner.experiments.figures.data import KINDS, Comparison, RunCurves
+from waypost_learner.runs.config import TrainConfig
+from waypost_server.runs.curves import trailing
 
 
 def run_of(

@@ -10,18 +10,18 @@ import numpy as np
 from hypothesis import assume, settings
 from hypothesis import strategies as st
 
-from learner.client import Client
-from learner.config import TrainConfig
-from learner.domains.maze.generator import maze_set
-from learner.domains.maze.maze import ROOMS, SIZE, Cell, Maze, closed_rooms, room_of, walls
-from learner.dqn import DqnSpec
-from learner.networks import NetworkSpec
-from learner.policies import TrainSpec
-from learner.presets import PRESETS
-from learner.presets.base import Preset
-from learner.rollout import Choosing
-from learner.training import Connection, RunOptions, embedded
-from learner.types import Segment, State
+from waypost.client import Client
+from waypost.trajectory import Segment, State
+from waypost_learner.domains.maze.generator import maze_set
+from waypost_learner.domains.maze.maze import ROOMS, SIZE, Cell, Maze, closed_rooms, room_of, walls
+from waypost_learner.policies.dqn import DqnSpec
+from waypost_learner.policies.imitation import TrainSpec
+from waypost_learner.policies.networks import NetworkSpec
+from waypost_learner.presets import PRESETS
+from waypost_learner.presets.base import Preset
+from waypost_learner.rollout.rollout import Choosing
+from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.training import Connection, RunOptions, embedded
 
 TINY_TRAIN = TrainSpec(learning_rate=5e-3, batch=16, least=48, most=48, dropout=0.25)
 TINY = Preset(

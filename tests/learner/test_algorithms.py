@@ -7,21 +7,30 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from learner.algorithms import ALGORITHMS, find_algorithm
-from learner.algorithms.flat_bc import flat_bc
-from learner.algorithms.flat_dagger import flat_dagger
-from learner.algorithms.flat_dqn import flat_dqn
-from learner.algorithms.h_bc import h_bc
-from learner.algorithms.h_dqn import h_dqn
-from learner.algorithms.hg_dagger import hg_dagger
-from learner.algorithms.hg_dagger_q import hg_dagger_q
-from learner.algorithms.hg_stagger import hg_stagger
-from learner.algorithms.naive_h_dagger import naive_h_dagger
-from learner.datasets import Labels
-from learner.queries import HierDemo, InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, LoLabels, Query
-from learner.types import FLAT, META, State, Trajectory, n_actions
 from tests.learner.kit import TINY, examples, segment, state
+
+from waypost.trajectory import State, Trajectory, n_actions
+from waypost_learner.algorithms import ALGORITHMS, find_algorithm
+from waypost_learner.algorithms.flat_bc import flat_bc
+from waypost_learner.algorithms.flat_dagger import flat_dagger
+from waypost_learner.algorithms.flat_dqn import flat_dqn
+from waypost_learner.algorithms.h_bc import h_bc
+from waypost_learner.algorithms.h_dqn import h_dqn
+from waypost_learner.algorithms.hg_dagger import hg_dagger
+from waypost_learner.algorithms.hg_dagger_q import hg_dagger_q
+from waypost_learner.algorithms.hg_stagger import hg_stagger
+from waypost_learner.algorithms.naive_h_dagger import naive_h_dagger
+from waypost_learner.algorithms.queries import (
+    HierDemo,
+    InspectFull,
+    InspectLo,
+    LabelFull,
+    LabelHi,
+    LabelLo,
+    Query,
+)
+from waypost_learner.policies.datasets import Labels, LoLabels
+from waypost_learner.rollout.policy_keys import FLAT, META
 
 S = state("s")
 

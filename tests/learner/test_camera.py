@@ -9,19 +9,19 @@ from typing import Any
 import httpx2
 import numpy as np
 from PIL import Image
-
-from learner.bot import Bot
-from learner.camera import Camera
-from learner.client import Client
-from learner.domains.corridor import AGENT, PIXELS, Corridor, CorridorDomain
-from learner.domains.maze.domain import MazeDomain
-from learner.queries import InspectFull, InspectLo
-from learner.simulator import Simulator
-from learner.training import Connection, train
-from learner.translation import Translator
-from learner.types import Segment, Trajectory
-from server import wire
 from tests.learner.kit import corridor, store
+
+from waypost import wire
+from waypost.client import Client
+from waypost.trajectory import Segment, Trajectory
+from waypost_learner.algorithms.queries import InspectFull, InspectLo
+from waypost_learner.domains.corridor import AGENT, PIXELS, Corridor, CorridorDomain
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.experts.bot import Bot
+from waypost_learner.remote.camera import Camera
+from waypost_learner.remote.translation import Translator
+from waypost_learner.rollout.simulator import Simulator
+from waypost_learner.runs.training import Connection, train
 
 WEST, EAST, TARGET = range(3)
 domain = CorridorDomain()

@@ -9,18 +9,18 @@ import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from safetensors.torch import load_file, save_file
-
-from learner import checkpoints
-from learner.checkpoints import Header, weights_hash
-from learner.config import Progress, TrainConfig
-from learner.datasets import UNLABELED, Labels, Row
-from learner.domains.base import Domain
-from learner.domains.corridor import CorridorDomain
-from learner.domains.maze.domain import MazeDomain
-from learner.learner import Learner
-from learner.networks import NetworkSpec
-from learner.types import META
 from tests.learner.kit import TINY
+
+from waypost.domain import Domain
+from waypost_learner.algorithms.learner import Learner
+from waypost_learner.domains.corridor import CorridorDomain
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.policies.datasets import UNLABELED, Labels, Row
+from waypost_learner.policies.networks import NetworkSpec
+from waypost_learner.rollout.policy_keys import META
+from waypost_learner.runs import checkpoints
+from waypost_learner.runs.checkpoints import Header, weights_hash
+from waypost_learner.runs.config import Progress, TrainConfig
 
 HEADER = Header("a-run", TrainConfig("hg-dagger", domain="corridor", in_flight=2, warm_start=5), Progress(7, 9))
 

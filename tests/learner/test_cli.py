@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import Result
+from tests.learner import kit
 from typer.testing import CliRunner
 
-from learner import cli
-from learner.domains.maze.files import save_mazes
-from learner.domains.maze.generator import maze_set
-from learner.training import embedded
-from server import serving
-from server.settings import Settings
-from tests.learner import kit
+from waypost_learner import cli
+from waypost_learner.domains.maze.files import save_mazes
+from waypost_learner.domains.maze.generator import maze_set
+from waypost_learner.runs.training import embedded
+from waypost_server import serving
+from waypost_server.settings import Settings
 
 TRAIN = ["train", "hg-dagger", "--domain", "corridor", "--preset", "tiny", "--seed", "1"]
 
@@ -142,11 +142,11 @@ def test_a_run_is_trained_on_the_mazes_of_a_file() -> None:
 def test_an_oracle_in_this_process_answers_at_a_real_server_too(
     trained: tuple[Path, str], start_server: Callable[[Settings], serving.Served], tmp_path: Path
 ) -> None:
-    from server import people
+    from waypost_server.users import service as users
 
     served = start_server(Settings(database=f"sqlite:///{tmp_path / 'served.db'}"))
-    admin = served.db.write_now(lambda tx: people.ensure_user(tx, "ann", "admin"))
-    token = served.db.write_now(lambda tx: people.create_token(tx, admin.id, "test")).token
+    admin = served.db.write_now(lambda tx: users.ensure_user(tx, "ann", "admin"))
+    token = served.db.write_now(lambda tx: users.create_token(tx, admin.id, "test")).token
     result = waypost(*TRAIN, "--episodes", "8", "--server", served.url, "--token", token, "--json")
     assert result.exit_code == 0, result.output
     over_http, in_process = json.loads(result.stdout), json.loads(trained[1])

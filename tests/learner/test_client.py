@@ -7,15 +7,16 @@ from typing import Any
 import httpx2
 import pytest
 
-from learner.bot import Bot
-from learner.client import Client, Refused, Unreachable
-from learner.domains.corridor import CorridorDomain
-from learner.experts.oracle import OracleExpert
-from learner.inprocess import InProcessTransport
-from learner.translation import vocabulary
-from server import people, wire
-from server.app import create_app
-from server.settings import Settings
+from waypost import wire
+from waypost.client import Client, Refused, Unreachable
+from waypost_learner.domains.corridor import CorridorDomain
+from waypost_learner.experts.bot import Bot
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.remote.in_process import InProcessTransport
+from waypost_learner.remote.translation import vocabulary
+from waypost_server.app import create_app
+from waypost_server.settings import Settings
+from waypost_server.users import service as users
 
 DOMAIN = CorridorDomain()
 RUN = wire.RunCreate(name="a run", algorithm="hg-dagger", seed=0, vocabulary=vocabulary(DOMAIN), episodes=3)
@@ -75,8 +76,8 @@ def service(tmp_path: Path) -> Iterator[Service]:
     app = create_app(Settings(database=f"sqlite:///{tmp_path / 'waypost.db'}"))
 
     def token(name: str, role: wire.Role) -> str:
-        user = app.state.context.db.write_now(lambda tx: people.ensure_user(tx, name, role))
-        made = app.state.context.db.write_now(lambda tx: people.create_token(tx, user.id, "test"))
+        user = app.state.context.db.write_now(lambda tx: users.ensure_user(tx, name, role))
+        made = app.state.context.db.write_now(lambda tx: users.create_token(tx, user.id, "test"))
         return str(made.token)
 
     with InProcessTransport(app) as transport:

@@ -6,10 +6,10 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 from hypothesis import given
 from hypothesis import strategies as st
-
-from learner.domains.base import find_domain
-from learner.domains.corridor import CELLS, EAST, MAX_STEPS, WEST, Corridor, CorridorDomain, CorridorEnv, moved
 from tests.learner.kit import examples
+
+from waypost.domain import find_domain
+from waypost_learner.domains.corridor import CELLS, EAST, MAX_STEPS, WEST, Corridor, CorridorDomain, CorridorEnv, moved
 
 domain = CorridorDomain()
 cells = st.integers(0, CELLS - 1)

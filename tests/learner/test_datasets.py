@@ -7,11 +7,11 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-
-from learner.datasets import UNLABELED, Dataset, Labels, Row
-from learner.queries import LoLabels
-from learner.types import FLAT, META, Segment, State
 from tests.learner.kit import examples, segment, state
+
+from waypost.trajectory import Segment, State
+from waypost_learner.policies.datasets import UNLABELED, Dataset, Labels, LoLabels, Row
+from waypost_learner.rollout.policy_keys import FLAT, META
 
 
 def learned(segment: Segment, labels: LoLabels) -> list[tuple[int, int]]:

@@ -9,11 +9,11 @@ import pytest
 import torch
 from hypothesis import given
 from hypothesis import strategies as st
-
-from learner.dqn import DqnSpec, QFunction, Replay
-from learner.experience import Transition
-from learner.networks import NetworkSpec
 from tests.learner.kit import examples
+
+from waypost_learner.policies.dqn import DqnSpec, QFunction, Replay
+from waypost_learner.policies.networks import NetworkSpec
+from waypost_learner.rollout.experience import Transition
 
 NETWORK = NetworkSpec(channels=(4,), hidden=32)
 

@@ -8,24 +8,24 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
-from learner.algorithms import ALGORITHMS
-from learner.bot import Bot, BotSettings
-from learner.checkpoints import read_header
-from learner.client import Refused
-from learner.config import TrainConfig
-from learner.domains.corridor import Corridor, CorridorDomain
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.maze import Maze
-from learner.experts.head_start import head_start
-from learner.experts.oracle import OracleExpert
-from learner.learner import Learner
-from learner.policies import Policy
-from learner.simulator import Simulator
-from learner.training import Connection, train
-from learner.translation import vocabulary
-from server import wire
 from tests.learner.kit import corridor, history, outcome, store
+
+from waypost import wire
+from waypost.client import Refused
+from waypost_learner.algorithms import ALGORITHMS
+from waypost_learner.algorithms.learner import Learner
+from waypost_learner.domains.corridor import Corridor, CorridorDomain
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.maze import Maze
+from waypost_learner.experts.bot import Bot, BotSettings
+from waypost_learner.experts.head_start import head_start
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.policies.imitation import Policy
+from waypost_learner.remote.translation import vocabulary
+from waypost_learner.rollout.simulator import Simulator
+from waypost_learner.runs.checkpoints import read_header
+from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.training import Connection, train
 
 
 class OutOfOrder:

@@ -1,14 +1,14 @@
 """An evaluation counts each episode once, and batches change nothing."""
 
 import pytest
-
-from learner import evaluation
-from learner.domains.corridor import Corridor, CorridorDomain
-from learner.evaluation import Evaluation, evaluate
-from learner.learner import TEST, Learner
-from learner.rollout import run
-from learner.simulator import Simulator
 from tests.learner.kit import TINY
+
+from waypost_learner.algorithms.learner import TEST, Learner
+from waypost_learner.domains.corridor import Corridor, CorridorDomain
+from waypost_learner.rollout.rollout import run
+from waypost_learner.rollout.simulator import Simulator
+from waypost_learner.runs import evaluation
+from waypost_learner.runs.evaluation import Evaluation, evaluate
 
 
 def test_successes_are_counted_over_all_episodes_whatever_the_batch(monkeypatch: pytest.MonkeyPatch) -> None:

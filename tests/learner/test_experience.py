@@ -4,10 +4,10 @@ import math
 from dataclasses import replace
 
 import pytest
-
-from learner.experience import PseudoReward, of_actions, of_subgoal, of_subgoals
-from learner.types import Outcome
 from tests.learner.kit import segment
+
+from waypost.trajectory import Outcome
+from waypost_learner.rollout.experience import PseudoReward, of_actions, of_subgoal, of_subgoals
 
 PSEUDO = PseudoReward(reached=1.0, failed=-1.0, step=-0.1)
 

@@ -20,21 +20,23 @@ from click.testing import Result
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
-from typer.testing import CliRunner
-
-from learner.cli import app
-from learner.client import Client
-from learner.config import TrainConfig
-from learner.experiments import plan
-from learner.experiments.figures import archive, look, make, tables
-from learner.experiments.figures.data import KINDS
-from learner.experiments.figures.store import read, stored
-from learner.training import train
-from server import people, serving, wire
-from server.settings import Settings
 from tests.learner.figures_kit import run_of
 from tests.learner.kit import corridor, examples, store
 from tests.repository.kit import complaint, invocations
+from typer.testing import CliRunner
+
+from waypost import wire
+from waypost.client import Client
+from waypost_learner.cli import app
+from waypost_learner.experiments import plan
+from waypost_learner.experiments.figures import archive, look, make, tables
+from waypost_learner.experiments.figures.data import KINDS
+from waypost_learner.experiments.figures.store import read, stored
+from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.training import train
+from waypost_server import serving
+from waypost_server.settings import Settings
+from waypost_server.users import service as users
 
 EPISODES = 6
 TINY = plan.Group(
@@ -152,8 +154,8 @@ def test_a_server_gives_the_same_figures_as_its_store(
 ) -> None:
     shutil.copy(trained, "served.db")
     served = start_server(Settings(database="sqlite:///served.db"))
-    viewer = served.db.write_now(lambda tx: people.ensure_user(tx, "ann", "viewer"))
-    token = served.db.write_now(lambda tx: people.create_token(tx, viewer.id, "test")).token
+    viewer = served.db.write_now(lambda tx: users.ensure_user(tx, "ann", "viewer"))
+    token = served.db.write_now(lambda tx: users.create_token(tx, viewer.id, "test")).token
     drawn("--server", served.url, "--token", token, *TWO_SEEDS, "--out", "server")
     assert contents(Path("server")) == expected
 
@@ -171,7 +173,8 @@ def test_drawing_changes_nothing_in_the_store(trained: Path) -> None:
 
 
 def test_figures_are_drawn_without_pytorch() -> None:
-    code = "import sys, learner.experiments.figures.make; print({'torch', 'learner.algorithms'} & set(sys.modules))"
+    drawing = "import sys, waypost_learner.experiments.figures.make"
+    code = f"{drawing}; print({{'torch', 'waypost_learner.algorithms'}} & set(sys.modules))"
     root = Path(make.__file__).parents[3]
     done = subprocess.run([sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True)
     assert done.stdout == "set()\n"

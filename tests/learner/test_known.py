@@ -6,16 +6,6 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from pydantic import TypeAdapter
-from typer.testing import CliRunner
-
-from learner.cli import app
-from learner.domains.base import find_domain
-from learner.experts.known import solve
-from learner.gold import make_gold
-from learner.practice import practice
-from learner.training import embedded
-from server import marking, wire
-from server.practice import SHIPPED, PracticeSet
 from tests.learner.test_oracle_expert import (
     EAST,
     RIGHT,
@@ -29,6 +19,17 @@ from tests.learner.test_oracle_expert import (
     walked,
     words,
 )
+from typer.testing import CliRunner
+
+from waypost import wire
+from waypost.domain import find_domain
+from waypost_learner.cli import app
+from waypost_learner.experts.gold import make_gold
+from waypost_learner.experts.practice import practice
+from waypost_learner.experts.solutions import solve
+from waypost_learner.runs.training import embedded
+from waypost_server.gold import scoring
+from waypost_server.gold.practice import SHIPPED, PracticeSet
 
 LABELS = ("inspect_full", "label_hi", "label_full")
 
@@ -41,8 +42,8 @@ def test_the_oracles_own_answers_are_right_in_every_label(drawn):
     queries += [ask(kind, maze, [one]) for one in segments for kind in ("inspect_lo", "label_lo")]
     for query in queries:
         solution = solve(domain, query)
-        marking.check(query, solution.known, words, [])
-        marks = marking.marks(solution.known, expert(query))
+        scoring.check(query, solution.known, words, [])
+        marks = scoring.marks(solution.known, expert(query))
         assert all(mark.is_right for mark in marks), (query.kind, marks)
         assert len(solution.reasons) == len(marks)
 

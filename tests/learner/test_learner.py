@@ -8,17 +8,17 @@ import pytest
 import torch
 from hypothesis import given
 from hypothesis import strategies as st
-
-from learner.datasets import UNLABELED, Labels
-from learner.domains.corridor import CorridorDomain
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.structure import LO_VIEW
-from learner.learner import Learner, Structure
-from learner.networks import ConvNet, DenseNet, PlanningNet
-from learner.policies import Policy, TrainSpec
-from learner.queries import LoLabels
-from learner.types import META, Segment
 from tests.learner.kit import TINY, TINY_LEAN, drawn_mazes, examples, segment
+
+from waypost.trajectory import Segment
+from waypost_learner.algorithms.learner import Learner, Structure
+from waypost_learner.domains.corridor import CorridorDomain
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.views import LO_VIEW
+from waypost_learner.policies.datasets import UNLABELED, Labels, LoLabels
+from waypost_learner.policies.imitation import Policy, TrainSpec
+from waypost_learner.policies.networks import ConvNet, DenseNet, PlanningNet
+from waypost_learner.rollout.policy_keys import META
 
 maze = MazeDomain()
 

@@ -6,10 +6,10 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 from hypothesis import given
 from hypothesis import strategies as st
-
-from learner.domains.maze.env import MAX_STEPS, MazeEnv
-from learner.domains.maze.maze import Maze, closed_rooms, moved
 from tests.learner.kit import STEPS, drawn_mazes, examples, free_cells
+
+from waypost_learner.domains.maze.env import MAX_STEPS, MazeEnv
+from waypost_learner.domains.maze.maze import Maze, closed_rooms, moved
 
 UP, DOWN, LEFT, RIGHT = (np.int64(action) for action in range(4))
 

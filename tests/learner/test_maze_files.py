@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.files import load_mazes, save_mazes
-from learner.domains.maze.generator import maze_set
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.files import load_mazes, save_mazes
+from waypost_learner.domains.maze.generator import maze_set
 
 Arrays = dict[str, np.ndarray]
 

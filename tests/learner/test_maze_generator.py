@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.generator import maze_set
-from learner.domains.maze.maze import Maze, closed_rooms, distances_from, room_of, walls
-from learner.experts.oracle import OracleExpert
-from server import wire
 from tests.learner.kit import solved
+
+from waypost import wire
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.generator import maze_set
+from waypost_learner.domains.maze.maze import Maze, closed_rooms, distances_from, room_of, walls
+from waypost_learner.experts.oracle import OracleExpert
 
 KINDS = ["random", "corners"]
 CORNERS = {(1, 1), (1, 15), (15, 1), (15, 15)}

@@ -3,13 +3,23 @@
 import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
-
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.maze import ACTIONS, SUBGOALS, Cell, Maze, closed_rooms, distances_from, moved, room_of, walls
-from learner.domains.maze.oracle import MazeOracle
-from learner.experts.oracle import OracleExpert
-from server import wire
 from tests.learner.kit import drawn_mazes, examples, free_cells, mazes, neighbours, reachable_cells, solved
+
+from waypost import wire
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.maze import (
+    ACTIONS,
+    SUBGOALS,
+    Cell,
+    Maze,
+    closed_rooms,
+    distances_from,
+    moved,
+    room_of,
+    walls,
+)
+from waypost_learner.domains.maze.oracle import MazeOracle
+from waypost_learner.experts.oracle import OracleExpert
 
 NORTH, SOUTH, WEST, EAST, TARGET = range(5)
 TOWARD = {NORTH: (-1, 0), SOUTH: (1, 0), WEST: (0, -1), EAST: (0, 1)}

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.learner.kit import drawn_mazes, examples, mazes, solved
 
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.env import AGENT, TARGET, MazeEnv
-from learner.domains.maze.maze import (
+from waypost.trajectory import Action, Segment, Subgoal, Trajectory
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.env import AGENT, TARGET, MazeEnv
+from waypost_learner.domains.maze.maze import (
     GO_TO_TARGET,
     Cell,
     Maze,
@@ -19,12 +21,10 @@ from learner.domains.maze.maze import (
     room_of,
     wall_beside,
 )
-from learner.domains.maze.relabeling import relabeled, retraced
-from learner.experts.oracle import OracleExpert
-from learner.simulator import Simulator
-from learner.translation import Translator
-from learner.types import Action, Segment, Subgoal, Trajectory
-from tests.learner.kit import drawn_mazes, examples, mazes, solved
+from waypost_learner.domains.maze.relabeling import relabeled, retraced
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.remote.translation import Translator
+from waypost_learner.rollout.simulator import Simulator
 
 domain = MazeDomain()
 

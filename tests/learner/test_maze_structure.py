@@ -4,20 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-
-from learner.domains.base import Grid, Symmetry, View
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.env import AGENT, TRAIL, MazeEnv
-from learner.domains.maze.maze import (
-    ROOMS,
-    Cell,
-    Maze,
-    moved,
-    room_of,
-    walls,
-)
-from learner.domains.maze.structure import FLAT_VIEW, HI_VIEW, LO_VIEW
 from tests.learner.kit import examples, free_cells, mazes, neighbours, solved
+
+from waypost.domain import Grid, Symmetry, View
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.env import AGENT, TRAIL, MazeEnv
+from waypost_learner.domains.maze.maze import ROOMS, Cell, Maze, moved, room_of, walls
+from waypost_learner.domains.maze.views import FLAT_VIEW, HI_VIEW, LO_VIEW
 
 domain = MazeDomain()
 views = st.sampled_from([HI_VIEW, LO_VIEW, FLAT_VIEW])

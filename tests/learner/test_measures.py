@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from learner.experiments import plan
-from learner.experiments.figures import draw, look, measures, tables
-from learner.experiments.figures.data import Comparison, RunCurves
-from learner.experiments.figures.published import published
-from learner.experiments.figures.statistics import Track, band, first_at, spread
-from server.curves import _first_at as server_first_at
 from tests.learner.figures_kit import marked, published_runs, results_of, run_of
 from tests.learner.kit import corridor, examples
+
+from waypost_learner.experiments import plan
+from waypost_learner.experiments.figures import draw, look, measures, tables
+from waypost_learner.experiments.figures.data import Comparison, RunCurves
+from waypost_learner.experiments.figures.published import published
+from waypost_learner.experiments.figures.statistics import Track, band, first_at, spread
+from waypost_server.runs.curves import _first_at as server_first_at
 
 # --- medians, ranges, and first times
 

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from learner.config import TrainConfig
-from learner.experts.oracle import OracleExpert
-from learner.monitoring import EVERY_EPISODE, Monitoring
-from learner.presets import find_preset
-from learner.training import build_learner, train
-from server import wire
 from tests.learner.kit import corridor, examples, history, store
+
+from waypost import wire
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.presets import find_preset
+from waypost_learner.presets.monitoring import EVERY_EPISODE, Monitoring
+from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.training import build_learner, train
 
 KNOWN_AT_ONCE = "monitoring.rate=0.5 monitoring.confidence=0.5"  # after one pass
 SOON = "monitoring.rate=0.5 monitoring.confidence=0.75"  # after two

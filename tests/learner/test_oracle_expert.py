@@ -8,21 +8,23 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
-
-from learner.domains.base import find_domain
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.env import MazeEnv
-from learner.domains.maze.generator import maze_set
-from learner.domains.maze.maze import ACTIONS, SUBGOALS, Cell, Maze, closed_rooms, moved
-from learner.experts.oracle import OracleExpert
-from server import kinds, wire
 from tests.learner.kit import drawn_mazes, examples, solved
+
+from waypost import prices as pricing
+from waypost import wire
+from waypost.domain import find_domain
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.env import MazeEnv
+from waypost_learner.domains.maze.generator import maze_set
+from waypost_learner.domains.maze.maze import ACTIONS, SUBGOALS, Cell, Maze, closed_rooms, moved
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_server.queries import checks
 
 NORTH, SOUTH, WEST, EAST, TARGET = SUBGOALS
 UP, DOWN, LEFT, RIGHT = ACTIONS
 domain = MazeDomain()
 expert = OracleExpert(domain)
-words = kinds.Words(frozenset(SUBGOALS), frozenset(ACTIONS))
+words = checks.Names(frozenset(SUBGOALS), frozenset(ACTIONS))
 
 
 def ask(kind: str, maze: Maze, segments: list[wire.Segment] | None = None) -> wire.Ask:
@@ -80,8 +82,8 @@ def queries(maze: Maze, segments: list[wire.Segment]) -> list[wire.Ask]:
 @given(trajectories())
 def test_every_answer_fits_its_query_by_the_servers_own_rules(walk: tuple[Maze, list[wire.Segment]]) -> None:
     for query in queries(*walk):
-        kinds.check_ask(query, words, ["query"])
-        kinds.check_answer(query, expert(query), words, ["answer"])
+        checks.check_ask(query, words, ["query"])
+        checks.check_answer(query, expert(query), words, ["answer"])
 
 
 @examples
@@ -203,7 +205,7 @@ def test_a_demonstration_replays_to_success_in_the_shortest_number_of_steps(maze
 
 def test_a_demonstration_costs_about_64_units_under_the_papers_prices() -> None:
     prices = wire.Prices()
-    costs = [kinds.cost(expert(ask("hier_demo", maze)), prices).units / 1e6 for maze in maze_set("random")[1][:100]]
+    costs = [pricing.cost(expert(ask("hier_demo", maze)), prices).units / 1e6 for maze in maze_set("random")[1][:100]]
     assert np.mean(costs) == pytest.approx(64, abs=2)
 
 

@@ -7,12 +7,12 @@ import torch
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-
-from learner.datasets import Dataset, Row
-from learner.domains.base import Grid
-from learner.networks import PlanningNet, PlanningSpec, build_network
-from learner.policies import Policy, TrainSpec
 from tests.learner.kit import STEPS, examples
+
+from waypost.domain import Grid
+from waypost_learner.policies.datasets import Dataset, Row
+from waypost_learner.policies.imitation import Policy, TrainSpec
+from waypost_learner.policies.networks import PlanningNet, PlanningSpec, build_network
 
 SIDE = 7
 GRID = Grid(patch=3, stride=1, moves=STEPS)

@@ -6,16 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 import torch
-
-from learner.checkpoints import weights_hash
-from learner.datasets import UNLABELED, Dataset, Labels, Row
-from learner.domains.corridor import CorridorDomain
-from learner.domains.maze.domain import MazeDomain
-from learner.learner import Learner
-from learner.networks import NetworkSpec, build_network
-from learner.policies import Policy, TrainSpec
-from learner.types import META
 from tests.learner.kit import TINY
+
+from waypost_learner.algorithms.learner import Learner
+from waypost_learner.domains.corridor import CorridorDomain
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.policies.datasets import UNLABELED, Dataset, Labels, Row
+from waypost_learner.policies.imitation import Policy, TrainSpec
+from waypost_learner.policies.networks import NetworkSpec, build_network
+from waypost_learner.rollout.policy_keys import META
+from waypost_learner.runs.checkpoints import weights_hash
 
 SPEC = TrainSpec(learning_rate=5e-3, batch=16, passes=2, least=256, most=640, dropout=0.0)
 NETWORK = NetworkSpec(channels=(4,), hidden=16)

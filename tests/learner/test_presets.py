@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from learner.presets import PRESETS, find_preset
+from waypost_learner.presets import PRESETS, find_preset
 
 PAPER = PRESETS["paper"]
 

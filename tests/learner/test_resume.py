@@ -12,15 +12,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.learner.kit import corridor, outcome, store
 from typer.testing import CliRunner
 
-from learner import driver
-from learner.checkpoints import read_header
-from learner.cli import app
-from learner.config import TrainConfig
-from learner.inprocess import InProcessTransport
-from learner.training import train
-from tests.learner.kit import corridor, outcome, store
+from waypost_learner.cli import app
+from waypost_learner.remote.in_process import InProcessTransport
+from waypost_learner.runs import driver
+from waypost_learner.runs.checkpoints import read_header
+from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.training import train
 
 
 class Interrupted(BaseException):

@@ -9,17 +9,26 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from learner.domains.base import Horizons
-from learner.domains.corridor import Corridor, CorridorDomain
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.generator import maze_set
-from learner.learner import TEST, TRAIN, Learner, Structure
-from learner.policies import Outputs
-from learner.rollout import Choosing, Manner, Rollout, choose, hierarchical_rollout, run, run_all
-from learner.simulator import Simulator
-from learner.types import FLAT, META, Trajectory, n_actions
 from tests.learner.kit import GREEDY, TINY, examples
+
+from waypost.domain import Horizons
+from waypost.trajectory import Trajectory, n_actions
+from waypost_learner.algorithms.learner import TEST, TRAIN, Learner, Structure
+from waypost_learner.domains.corridor import Corridor, CorridorDomain
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.generator import maze_set
+from waypost_learner.rollout.policy_keys import FLAT, META
+from waypost_learner.rollout.rollout import (
+    Choosing,
+    Manner,
+    Outputs,
+    Rollout,
+    choose,
+    hierarchical_rollout,
+    run,
+    run_all,
+)
+from waypost_learner.rollout.simulator import Simulator
 
 WEST, EAST, TARGET = range(3)
 

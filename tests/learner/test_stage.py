@@ -12,20 +12,22 @@ import httpx2
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.learner.kit import corridor, examples, outcome, store
 from websockets.sync.client import ClientConnection
 
-from learner.bot import Bot, BotSettings
-from learner.client import Client
-from learner.domains.corridor import Corridor, CorridorDomain
-from learner.experts.oracle import OracleExpert
-from learner.queries import HierDemo
-from learner.simulator import Simulator
-from learner.stage import Stage, offer
-from learner.training import Connection, RunOptions, train
-from learner.translation import Translator, vocabulary
-from server import people, serving, wire
-from server.settings import Settings
-from tests.learner.kit import corridor, examples, outcome, store
+from waypost import wire
+from waypost.client import Client
+from waypost_learner.algorithms.queries import HierDemo
+from waypost_learner.domains.corridor import Corridor, CorridorDomain
+from waypost_learner.experts.bot import Bot, BotSettings
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.remote.stage import Stage, offer
+from waypost_learner.remote.translation import Translator, vocabulary
+from waypost_learner.rollout.simulator import Simulator
+from waypost_learner.runs.training import Connection, RunOptions, train
+from waypost_server import serving
+from waypost_server.settings import Settings
+from waypost_server.users import service as users
 
 Start = Callable[[Settings], serving.Served]
 domain = CorridorDomain()
@@ -105,8 +107,8 @@ def connect() -> Iterator[Connect]:
     with ExitStack() as stack:
 
         def connect(served: serving.Served, name: str, role: wire.Role) -> Client:
-            user = served.db.write_now(lambda tx: people.ensure_user(tx, name, role))
-            token = served.db.write_now(lambda tx: people.create_token(tx, user.id, "")).token
+            user = served.db.write_now(lambda tx: users.ensure_user(tx, name, role))
+            token = served.db.write_now(lambda tx: users.create_token(tx, user.id, "")).token
             client = Client(served.url, token)
             stack.callback(client.close)
             return client

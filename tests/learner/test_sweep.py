@@ -14,18 +14,19 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.learner.kit import corridor, history
 from typer.testing import CliRunner
 
-from learner.cli import app
-from learner.config import TrainConfig
-from learner.experiments import plan
-from learner.experiments.figures import archive
-from learner.experiments.figures.data import KINDS, RunCurves
-from learner.experiments.sweep import Place, Progress, name_of, sweep
-from learner.training import embedded
-from server import people, serving
-from server.settings import Settings
-from tests.learner.kit import corridor, history
+from waypost_learner.cli import app
+from waypost_learner.experiments import plan
+from waypost_learner.experiments.figures import archive
+from waypost_learner.experiments.figures.data import KINDS, RunCurves
+from waypost_learner.experiments.sweep import Place, Progress, name_of, sweep
+from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.training import embedded
+from waypost_server import serving
+from waypost_server.settings import Settings
+from waypost_server.users import service as users
 
 # A preset of the product: a sweep's workers know no other.
 _LITTLE = " ".join(f"train_{level}.least=640 train_{level}.most=640 train_{level}.idle=0" for level in ("hi", "lo"))
@@ -157,8 +158,8 @@ def test_a_cluster_cannot_write_a_file_of_this_machine(tmp_path: Path) -> None:
 @pytest.fixture
 def token(tmp_path: Path) -> Iterator[tuple[str, str]]:
     with serving.background(Settings(database=f"sqlite:///{tmp_path / 'server.db'}"), port=0) as server:
-        user = server.db.write_now(lambda tx: people.ensure_user(tx, "sweeper", "admin"))
-        yield server.url, server.db.write_now(lambda tx: people.create_token(tx, user.id, "sweep")).token
+        user = server.db.write_now(lambda tx: users.ensure_user(tx, "sweeper", "admin"))
+        yield server.url, server.db.write_now(lambda tx: users.create_token(tx, user.id, "sweep")).token
 
 
 def test_a_sweep_can_write_to_a_server(tmp_path: Path, token: tuple[str, str]) -> None:
@@ -184,7 +185,7 @@ def test_the_command_lists_algorithms_domains_and_presets_that_exist(tmp_path: P
 
 
 def test_every_figure_is_made_of_runs_that_can_be_built() -> None:
-    from learner.training import build_learner
+    from waypost_learner.runs.training import build_learner
 
     runs = plan.runs_of(plan.find_figure("maze"), seeds=(0,))
     assert len(set(runs)) == len(runs) > 10

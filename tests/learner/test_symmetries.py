@@ -7,18 +7,18 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from learner.datasets import UNLABELED, Labels, Row
-from learner.domains.base import Domain, Symmetry
-from learner.domains.corridor import CELLS, Corridor, CorridorDomain
-from learner.domains.maze.domain import MazeDomain
-from learner.domains.maze.env import MazeEnv
-from learner.domains.maze.maze import Cell, Maze
-from learner.domains.maze.symmetries import symmetries
-from learner.experience import Transition
-from learner.learner import Learner, Structure
-from learner.types import META
 from tests.learner.kit import TINY, drawn_mazes, examples, mazes, reachable_cells
+
+from waypost.domain import Domain, Symmetry
+from waypost_learner.algorithms.learner import Learner, Structure
+from waypost_learner.domains.corridor import CELLS, Corridor, CorridorDomain
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.env import MazeEnv
+from waypost_learner.domains.maze.maze import Cell, Maze
+from waypost_learner.domains.maze.symmetries import symmetries
+from waypost_learner.policies.datasets import UNLABELED, Labels, Row
+from waypost_learner.rollout.experience import Transition
+from waypost_learner.rollout.policy_keys import META
 
 oracle = MazeDomain().oracle
 

@@ -15,15 +15,17 @@ import pytest
 from click.testing import Result
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.learner.kit import examples
 from typer.testing import CliRunner
 
-from learner import cli
-from learner.algorithms.flat_dagger import flat_dagger
-from learner.algorithms.hg_dagger import hg_dagger
-from learner.datasets import Labels, Row
-from learner.experiments.theory import grid, report
-from learner.experiments.theory.adversary import worst_instance
-from learner.experiments.theory.bounds import (
+from waypost import wire
+from waypost_learner import cli
+from waypost_learner.algorithms.flat_dagger import flat_dagger
+from waypost_learner.algorithms.hg_dagger import hg_dagger
+from waypost_learner.algorithms.queries import Answer, InspectLo, LabelLo, Query
+from waypost_learner.experiments.theory import grid, report
+from waypost_learner.experiments.theory.adversary import worst_instance
+from waypost_learner.experiments.theory.bounds import (
     Expense,
     operation_costs,
     proportion,
@@ -31,14 +33,12 @@ from learner.experiments.theory.bounds import (
     theorem_1,
     theorem_2,
 )
-from learner.experiments.theory.classes import N_ACTIONS, N_POSITIONS, Cell, Classes, draw_classes
-from learner.experiments.theory.halving import Product, Simple, VersionSpace
-from learner.experiments.theory.simulation import Episodes, HalvingLearner, PricedExpert, simulate
-from learner.experiments.theory.task import Task, observed
-from learner.queries import Answer, InspectLo, LabelLo, Query
-from learner.types import FLAT, META
-from server import wire
-from tests.learner.kit import examples
+from waypost_learner.experiments.theory.classes import N_ACTIONS, N_POSITIONS, Cell, Classes, draw_classes
+from waypost_learner.experiments.theory.halving import Product, Simple, VersionSpace
+from waypost_learner.experiments.theory.simulation import Episodes, HalvingLearner, PricedExpert, simulate
+from waypost_learner.experiments.theory.task import Task, observed
+from waypost_learner.policies.datasets import Labels, Row
+from waypost_learner.rollout.policy_keys import FLAT, META
 
 SMALL = (Cell(2, 2, 8, 4, 2), Cell(3, 2, 5, 3, 3))
 SEEDS = st.integers(0, 2**32)

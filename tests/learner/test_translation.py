@@ -4,13 +4,16 @@ from typing import Any
 
 import pytest
 
-from learner.domains.corridor import Corridor, CorridorDomain
-from learner.experts.oracle import OracleExpert
-from learner.queries import HierDemo, InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, LoLabels
-from learner.simulator import Simulator
-from learner.translation import Translator, vocabulary
-from learner.types import Segment, Trajectory
-from server import kinds, wire
+from waypost import prices as pricing
+from waypost import wire
+from waypost.trajectory import Segment, Trajectory
+from waypost_learner.algorithms.queries import HierDemo, InspectFull, InspectLo, LabelFull, LabelHi, LabelLo
+from waypost_learner.domains.corridor import Corridor, CorridorDomain
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.policies.datasets import LoLabels
+from waypost_learner.remote.translation import Translator, vocabulary
+from waypost_learner.rollout.simulator import Simulator
+from waypost_server.queries import checks
 
 WEST, EAST, TARGET = range(3)
 domain = CorridorDomain()
@@ -44,7 +47,7 @@ sigma = walked((EAST, [1] * 4), (WEST, [1, 0]))
 )
 def test_every_query_is_what_the_server_accepts_and_carries_its_key_and_the_instance(query: Any) -> None:
     ask = translator.ask(query, episode=4, ordinal=2)
-    kinds.check_ask(ask, kinds.Words.of(vocabulary(domain)), ["query"])
+    checks.check_ask(ask, checks.Names.of(vocabulary(domain)), ["query"])
     assert (ask.episode, ask.ordinal) == (4, 2)
     assert ask.instance == {"cells": 13, "start": 0, "target": 6}
 
@@ -72,7 +75,7 @@ def test_label_hi_can_be_of_one_segment_with_what_came_before() -> None:
     assert ask.suggestion == wire.LabelHiAnswer(kind="label_hi", subgoals=["west"])
     assert "this segment" in ask.question
     assert "each segment" in whole.question
-    assert kinds.cost(ask.suggestion, wire.Prices()).units == kinds.cost(whole.suggestion, wire.Prices()).units // 2
+    assert pricing.cost(ask.suggestion, wire.Prices()).units == pricing.cost(whole.suggestion, wire.Prices()).units // 2
 
 
 def test_answers_come_back_as_numbers() -> None:

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import typer
 
-from learner.cli import app
+from waypost_learner.cli import app
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = (*sorted(ROOT.glob("*.md")), *sorted(ROOT.glob("docs/**/*.md")))

@@ -5,7 +5,6 @@ from typing import Any
 
 import pytest
 import yaml
-
 from tests.repository.kit import ROOT, complaint, invocations
 
 FILE = ROOT / "docker-compose.yml"

@@ -1,9 +1,9 @@
 import re
 
 import pytest
-
-from server.settings import Settings
 from tests.repository.kit import DOCUMENTS, ROOT, commands, complaint, invocations, name_of, options, shell_blocks
+
+from waypost_server.settings import Settings
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 

@@ -5,21 +5,22 @@ import subprocess
 import sys
 
 import pytest
-
-from learner.client import Client
-from learner.domains.maze.domain import MazeDomain
-from learner.translation import vocabulary
-from server import people, wire
-from server.settings import Settings
 from tests.repository.kit import ROOT
+
+from waypost import wire
+from waypost.client import Client
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.remote.translation import vocabulary
+from waypost_server.settings import Settings
+from waypost_server.users import service as users
 
 SCRIPT = ROOT / "docs" / "rest_client.py"
 DOMAIN = MazeDomain()
 
 
 def token(served, name: str, role: wire.Role) -> str:
-    user = served.db.write_now(lambda tx: people.create_user(tx, name, role))
-    return served.db.write_now(lambda tx: people.create_token(tx, user.id, "")).token
+    user = served.db.write_now(lambda tx: users.create_user(tx, name, role))
+    return served.db.write_now(lambda tx: users.create_token(tx, user.id, "")).token
 
 
 def inspect_full(maze, last) -> wire.AskInspectFull:

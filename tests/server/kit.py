@@ -12,10 +12,11 @@ from typing import Any
 import httpx2
 from fastapi.testclient import TestClient
 
-from server import people, wire
-from server.app import create_app
-from server.database import Database
-from server.settings import Settings
+from waypost import wire
+from waypost_server.app import create_app
+from waypost_server.db.engine import Database
+from waypost_server.settings import Settings
+from waypost_server.users import service as users
 
 API = "/api/v1"
 VOCABULARY = {"domain": "maze", "subgoals": ["north", "south"], "actions": ["up", "down"], "renderer": "maze"}
@@ -130,8 +131,8 @@ class Service:
 
     def user(self, name: str, role: wire.Role) -> Caller:
         """Create a user with a token."""
-        made = self.db.write_now(lambda tx: people.ensure_user(tx, name, role))
-        token = self.db.write_now(lambda tx: people.create_token(tx, made.id, "test")).token
+        made = self.db.write_now(lambda tx: users.ensure_user(tx, name, role))
+        token = self.db.write_now(lambda tx: users.create_token(tx, made.id, "test")).token
         return Caller(self.client, name, token)
 
     def annotators(self, n: int) -> list[Caller]:

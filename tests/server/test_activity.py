@@ -5,7 +5,6 @@ from collections.abc import Iterator
 
 import pytest
 from sqlalchemy import text
-
 from tests.server.kit import Service, in_process, query
 
 CAP = 1.0

@@ -3,7 +3,6 @@
 import time
 
 import pytest
-
 from tests.server.kit import Json, Service, in_process, query, right_answer
 
 KINDS_AND_COSTS = [

@@ -2,7 +2,6 @@
 
 import pytest
 from sqlalchemy import text
-
 from tests.server.kit import Service, query
 from tests.server.test_curves import filled, report, result
 

@@ -10,12 +10,14 @@ import time
 
 import httpx2
 import pytest
+from tests.server.kit import API
 from typer.testing import CliRunner
 
-from server import accounts, people, wire
-from server.cli import app
-from server.database import Database
-from tests.server.kit import API
+from waypost import wire
+from waypost_server.cli import app
+from waypost_server.db.engine import Database
+from waypost_server.users import accounts
+from waypost_server.users import service as users
 
 
 def run(*arguments: str, status: int = 0) -> str:
@@ -55,10 +57,10 @@ def test_users_are_changed_on_the_command_line(sqlite_url: str) -> None:
 def test_serve_lets_some_administrator_in_whoever_is_left(sqlite_url: str) -> None:
     db = Database(sqlite_url)
     for name in ("admin", "ann"):
-        db.write_now(lambda tx, name=name: people.create_user(tx, name, "admin"))
-    assert db.write_now(people.an_administrator).name == "admin"
+        db.write_now(lambda tx, name=name: users.create_user(tx, name, "admin"))
+    assert db.write_now(users.an_administrator).name == "admin"
     db.write_now(lambda tx: accounts.change(tx, 1, wire.UserPatch(active=False)))
-    assert db.write_now(people.an_administrator).name == "ann"
+    assert db.write_now(users.an_administrator).name == "ann"
     db.close()
 
 
@@ -104,7 +106,7 @@ def test_a_newer_store_is_explained(sqlite_url: str) -> None:
 
 
 def test_serve_prints_a_link_that_logs_an_administrator_in(sqlite_url: str) -> None:
-    command = [sys.executable, "-u", "-m", "server.cli", "serve", "--port", "0", "--database", sqlite_url]
+    command = [sys.executable, "-u", "-m", "waypost_server.cli", "serve", "--port", "0", "--database", sqlite_url]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         process.stdout.readline()

@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from typing import Any
 
 import httpx2
-
 from tests.server.kit import Json, Service, in_process, query
 
 N_QUERIES = 200
@@ -19,7 +18,7 @@ N_QUERIES = 200
 @contextmanager
 def killed_server(url: str) -> Iterator[tuple[str, subprocess.Popen[str]]]:
     """Run `serve` in a process of its own, to be killed."""
-    command = [sys.executable, "-u", "-m", "server.cli", "serve", "--port", "0", "--database", url]
+    command = [sys.executable, "-u", "-m", "waypost_server.cli", "serve", "--port", "0", "--database", url]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     try:
         assert process.stdout is not None

@@ -4,10 +4,10 @@ import json
 
 import pytest
 from sqlalchemy import text
-
-from server.curves import _cumulative, _first_at, trailing
-from server.database import Database
 from tests.server.kit import Json, Service, in_process, query, right_answer
+
+from waypost_server.db.engine import Database
+from waypost_server.runs.curves import _cumulative, _first_at, trailing
 
 
 def result(episode: int, passed: bool | None = True, **more: object) -> Json:

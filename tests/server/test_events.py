@@ -8,10 +8,10 @@ from typing import Any
 
 import httpx2
 import pytest
-
-from server import serving
-from server.settings import Settings
 from tests.server.kit import API, Caller, Service, query
+
+from waypost_server import serving
+from waypost_server.settings import Settings
 
 Start = Callable[[Settings], serving.Served]
 

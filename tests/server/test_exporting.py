@@ -5,10 +5,10 @@ import io
 import json
 
 import pytest
-
-from server.exporting import PAGE, csv_line, harmless
 from tests.server.kit import Service, query
 from tests.server.test_curves import report, result
+
+from waypost_server.watch.export import PAGE, csv_line, harmless
 
 
 def download(service: Service, run: str, table: str, form: str = "csv") -> str:

@@ -1,7 +1,6 @@
 """Frames: pictures of states, kept by their hash, shown with the queries that name them."""
 
 import pytest
-
 from tests.server.kit import API, Json, Service, frame, in_process, png, query, segment
 
 BLACK, WHITE = frame(png(0)), frame(png(255))

@@ -7,11 +7,11 @@ import pytest
 import schemathesis
 from hypothesis import HealthCheck, Phase, settings
 from schemathesis import checks
-
-from server import serving
-from server.app import create_app
-from server.settings import Settings
 from tests.server.kit import Service, query
+
+from waypost_server import serving
+from waypost_server.app import create_app
+from waypost_server.settings import Settings
 
 EXAMPLES = 12
 

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from sqlalchemy import select
-
-from server.probing import Place
-from server.tables import ledger
 from tests.server.kit import API, Caller, Json, Service, in_process, query, right_answer
+
+from waypost_server.db.tables import ledger
+from waypost_server.gold.schedule import Place
 
 
 def known(kind: str, n_actions: int = 2) -> Json:

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-
-from server.guard import host_name
 from tests.server.kit import API, Service, in_process
+
+from waypost_server.http.guard import host_name
 
 RUN = {
     "name": "x",
@@ -134,7 +134,7 @@ def test_a_failure_of_the_server_says_nothing_of_its_inside(sqlite_url: str, mon
     def fail(*_: object) -> None:
         raise RuntimeError("secret")
 
-    monkeypatch.setattr("server.run_list.listed", fail)
+    monkeypatch.setattr("waypost_server.runs.listing.listed", fail)
     with in_process(sqlite_url) as service:
         service.client._transport.raise_server_exceptions = False
         reply = service.client.get(f"{API}/runs", headers=service.viewer.headers)

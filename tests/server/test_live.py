@@ -2,7 +2,7 @@
 
 import asyncio
 
-from server.live import Hub, pause
+from waypost_server.db.wakeups import Hub, pause
 
 
 def test_a_change_after_the_watch_is_not_missed() -> None:

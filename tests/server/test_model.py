@@ -20,7 +20,6 @@ from hypothesis.stateful import (
     rule,
     run_state_machine_as_test,
 )
-
 from tests.server.kit import Json, Service, in_process, query, right_answer
 
 PRICE = {"inspect_full": 1, "label_lo": 3, "label_hi": 1, "label_full": 2, "hier_demo": 4}

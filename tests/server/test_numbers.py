@@ -4,7 +4,6 @@ import statistics
 
 import pytest
 from sqlalchemy import text
-
 from tests.server.kit import Caller, Service, query
 
 ANSWERS = {"inspect_full": [300.0, 100.0, 200.0], "label_lo": [400.0, 100.0, 900.0, 200.0], "label_hi": [500.0]}

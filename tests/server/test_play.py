@@ -11,13 +11,14 @@ from urllib.parse import urlsplit
 
 import httpx2
 import pytest
+from tests.server.kit import API, Caller, Json, Service, query
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
-from server import people, serving
-from server.access import COOKIE
-from server.settings import Settings
-from tests.server.kit import API, Caller, Json, Service, query
+from waypost_server import serving
+from waypost_server.auth.permissions import COOKIE
+from waypost_server.settings import Settings
+from waypost_server.users import service as users
 
 Start = Callable[[Settings], serving.Served]
 MOVES = {"type": "moves", "number": 7, "segments": [{"subgoal": "north", "actions": ["up", "up"]}], "known": 1}
@@ -180,8 +181,8 @@ def test_another_host_name_is_refused_at_the_handshake(simple: Play) -> None:
 
 def test_a_session_is_good_from_the_servers_own_page_alone(simple: Play) -> None:
     db = simple.served.db
-    user = db.write_now(lambda tx: people.ensure_user(tx, "abe", "annotator"))
-    code = db.write_now(lambda tx: people.create_login(tx, user.id, 60)).code
+    user = db.write_now(lambda tx: users.ensure_user(tx, "abe", "annotator"))
+    code = db.write_now(lambda tx: users.create_login(tx, user.id, 60)).code
     own = {"Origin": simple.served.url}
     login = simple.service.client.post(f"{API}/session", json={"code": code}, headers=own)
     cookie = f"{COOKIE}={login.cookies[COOKIE]}"
@@ -238,7 +239,7 @@ def test_an_answered_demonstration_is_offered_and_played_no_more(play: Play) -> 
 
 
 def test_play_ends_with_the_lease(play: Play, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("server.routes.play.RECHECK_SECONDS", 0)
+    monkeypatch.setattr("waypost_server.play.routes.RECHECK_SECONDS", 0)
     with play.both() as (page, stage):
         play.service.annotator.release(play.held)
         say(page, MOVES)

@@ -4,9 +4,9 @@ import json
 from pathlib import Path
 
 import pytest
-
-from server.practice import SHIPPED, BadPractice, PracticeSet
 from tests.server.kit import Json, Service, in_process
+
+from waypost_server.gold.practice import SHIPPED, BadPractice, PracticeSet
 
 EXERCISES = json.loads(SHIPPED.read_text())["exercises"]
 

@@ -4,7 +4,6 @@ import threading
 import time
 
 import pytest
-
 from tests.server.kit import Json, Service, in_process, query, segment
 
 

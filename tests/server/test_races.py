@@ -8,12 +8,13 @@ from collections import Counter
 from typing import Any
 
 import httpx2
-
-from server import queue, wire
-from server.app import create_app
-from server.database import Tx
-from server.settings import Settings
 from tests.server.kit import VOCABULARY, Json, Service, in_process, query, right_answer, together
+
+from waypost import wire
+from waypost_server.app import create_app
+from waypost_server.db.engine import Tx
+from waypost_server.leases import service as leases
+from waypost_server.settings import Settings
 
 LEASE_SECONDS = 2.0
 N_QUERIES = 500
@@ -133,11 +134,11 @@ def test_a_query_leased_while_its_page_says_that_it_goes_is_open_again(database_
     with in_process(database_url) as service:
         service.learner.ask(service.learner.create_run(), query())
         user = service.annotator.get("/me")["id"]
-        wish = queue.Wish.of(wire.Lease(tab="one"), user, Settings(database=database_url))
+        wish = leases.Wish.of(wire.Lease(tab="one"), user, Settings(database=database_url))
         is_leased = threading.Event()
 
         def lease(tx: Tx) -> None:
-            assert queue.lease(tx, wish) is not None
+            assert leases.lease(tx, wish) is not None
             is_leased.set()
             time.sleep(0.5)  # not committed yet
 

@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 from starlette.routing import WebSocketRoute
-
-from server import wire
-from server.app import create_app
-from server.settings import Settings
 from tests.server.kit import Caller, Service
+
+from waypost import wire
+from waypost_server.app import create_app
+from waypost_server.settings import Settings
 
 OPEN = {("GET", "/healthz"), ("GET", "/readyz"), ("POST", "/api/v1/session")}
 ANYONE = {"admin", "learner", "annotator", "viewer"}
@@ -188,7 +188,7 @@ def test_what_the_server_sends_has_no_optional_fields() -> None:
 
 
 def test_the_document_is_printed() -> None:
-    done = subprocess.run([sys.executable, "-m", "server.openapi"], capture_output=True, check=True)
+    done = subprocess.run([sys.executable, "-m", "waypost_server.openapi"], capture_output=True, check=True)
     assert json.loads(done.stdout) == document()
 
 

@@ -1,7 +1,6 @@
 """Runs: their states, their budgets and what finishing does."""
 
 import pytest
-
 from tests.server.kit import VOCABULARY, Service, query, together
 
 

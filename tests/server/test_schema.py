@@ -7,9 +7,9 @@ from alembic.autogenerate import compare_metadata
 from alembic.runtime.migration import MigrationContext
 from sqlalchemy import text
 
-from server.database import BadDatabase, Database, Tx, parse
-from server.schema import NewerStore
-from server.tables import metadata
+from waypost_server.db.engine import BadDatabase, Database, Tx, parse
+from waypost_server.db.schema import NewerStore
+from waypost_server.db.tables import metadata
 
 
 def differences(tx: Tx) -> list[object]:

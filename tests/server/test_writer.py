@@ -9,9 +9,9 @@ import pytest
 from sqlalchemy import Engine, create_engine, event, text
 from sqlalchemy.exc import OperationalError
 
-from server import errors
-from server.database import Database, Tx
-from server.writer import GroupCommit
+from waypost_server import errors
+from waypost_server.db.engine import Database, Tx
+from waypost_server.db.writer import GroupCommit
 
 
 def add(name: str) -> Any:

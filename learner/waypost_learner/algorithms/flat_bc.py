@@ -1,0 +1,17 @@
+"""Flat behavioral cloning (Le et al. 2018, section 6.1): Algorithm 1 without the hierarchy."""
+
+from collections.abc import Generator
+from typing import Any
+
+from waypost.trajectory import State
+from waypost_learner.algorithms.learner import Learner
+from waypost_learner.algorithms.queries import HierDemo, Query
+from waypost_learner.policies.datasets import Labels
+
+
+def flat_bc(s: State, learner: Learner) -> Generator[Query, Any, Labels]:  # noqa: ARG001 (algorithms share a signature)
+    """Run one episode: the expert carries the task out, and each of its actions is a label."""
+    labels = Labels()
+    (tau_star,) = yield HierDemo(s, flat=True)
+    labels.append_flat((tau_star,), tau_star.actions)
+    return labels

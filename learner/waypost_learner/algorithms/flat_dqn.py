@@ -1,0 +1,20 @@
+"""Flat double Q-learning, which fails "due to a long planning horizon and sparse rewards" (Le et al. 2018, 6.1)."""
+
+from collections.abc import Generator
+from typing import Any
+
+from waypost.trajectory import State
+from waypost_learner.algorithms.learner import Learner
+from waypost_learner.algorithms.queries import Query
+from waypost_learner.policies.datasets import Labels
+from waypost_learner.rollout import experience
+from waypost_learner.rollout.policy_keys import FLAT
+
+
+def flat_dqn(s: State, learner: Learner) -> Generator[Query, Any, Labels]:
+    """Run one episode; all of it becomes experience."""
+    labels = Labels()
+    (tau,) = learner.roll_out(s)
+    labels.append_experience(FLAT, experience.of_actions(tau))
+    yield from ()  # no questions
+    return labels

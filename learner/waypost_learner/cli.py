@@ -1,0 +1,280 @@
+"""The command `waypost`: the server's commands, and the learner's.
+
+Importing this module must be quick and must not need the learner's packages: they are imported by the commands that
+use them, so that the base installation can serve.
+"""
+
+import json
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+
+from waypost.wire import EpisodeResult, Receipt, Run, RunPatch
+from waypost_learner.commands import (
+    PatienceOption,
+    ServerOption,
+    TokenOption,
+    checkpoint_folder,
+    learner_errors,
+    needed,
+    progress_bar,
+)
+from waypost_learner.experiments import cli as experiments_cli
+from waypost_server import cli as server_cli
+from waypost_server.cli import JsonOption, refuse
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    help="Waypost: interactive labeling for hierarchical imitation learning.",
+)
+app.add_typer(server_cli.app)
+app.add_typer(experiments_cli.app)
+
+StoreOption = Annotated[Path | None, typer.Option("--store", help="An SQLite file; it is created if it is not there.")]
+CheckpointsOption = Annotated[
+    Path | None,
+    typer.Option(help="Folder of checkpoints; beside the store, or ./checkpoints with a server."),
+]
+ThreadsOption = Annotated[
+    int | None, typer.Option(min=1, help="Processor threads to train with; it changes nothing but the time.")
+]
+
+
+@app.command()
+def train(
+    algorithm: Annotated[str, typer.Argument(help="hg-dagger, h-bc or another; a wrong name lists all.")],
+    domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
+    instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "random",
+    preset: Annotated[str, typer.Option(help="The values of learning.")] = "lean",
+    seed: Annotated[int, typer.Option(min=0, help="Fixes the run.")] = 0,
+    episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 1000,
+    warm_start: Annotated[int | None, typer.Option(min=0, help="Demonstrations first; the preset's if absent.")] = None,
+    redraw: Annotated[bool, typer.Option(help="Draw training instances until one fails, each episode.")] = False,
+    head_start: Annotated[float | None, typer.Option(help="Share of an optimal trajectory done beforehand.")] = None,
+    values: Annotated[str | None, typer.Option(help='Other values than the preset\'s: "relabeling=false".')] = None,
+    expert: Annotated[str, typer.Option(help="Who answers: oracle (in this process) or queue.")] = "oracle",
+    server: ServerOption = None,
+    token: TokenOption = "",
+    store: StoreOption = None,
+    in_flight: Annotated[int, typer.Option(min=1, help="Episodes open at once; 1 is the paper's loop.")] = 1,
+    resume: Annotated[bool, typer.Option(help="Go on with the newest unfinished run of these values.")] = False,
+    name: Annotated[str | None, typer.Option(help="What the run is called.")] = None,
+    budget: Annotated[float | None, typer.Option(min=0, help="Most units the run may cost.")] = None,
+    checkpoints: CheckpointsOption = None,
+    threads: ThreadsOption = None,
+    patience: PatienceOption = 300.0,
+    as_json: JsonOption = False,
+) -> None:
+    """Train with an algorithm of the paper; every answer and its price goes into the store."""
+    if expert not in {"oracle", "queue"}:
+        refuse(f"There is no expert {expert!r}; choose oracle (answers in this process) or queue (others answer).")
+    if server is None and expert == "queue":
+        refuse("With --expert queue others answer at a server: give its address with --server URL.")
+    if server is not None and store is not None:
+        refuse("The server keeps the store: give either --server or --store.")
+    with learner_errors("Interrupted; `--resume` goes on from the last checkpoint."):
+        from waypost_learner.runs import training
+        from waypost_learner.runs.config import TrainConfig
+
+        config = TrainConfig(
+            algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start, values
+        )
+        training.build_learner(config, threads)  # says what is wrong before there is a store
+        options = training.RunOptions(name, budget, resume, checkpoint_folder(checkpoints, store, server), threads)
+        with ExitStack() as stack:
+            connection = stack.enter_context(
+                training.remote(server, needed(token), expert == "oracle", patience)
+                if server is not None
+                else training.embedded(store or Path("waypost.db"))
+            )
+            progress = stack.enter_context(_TrainingProgress(episodes))
+            summary = training.train(config, connection, options, progress.start, progress.episode)
+    _print_summary(summary, as_json)
+
+
+@app.command()
+def evaluate(
+    run: Annotated[str, typer.Argument(help="The run's id, as `waypost train` printed it.")],
+    instances: Annotated[str | None, typer.Option(help="Other instances than the run's own unseen ones.")] = None,
+    episodes: Annotated[int, typer.Option(min=0, help="How many; 0 for one on each instance.")] = 0,
+    store: StoreOption = None,
+    server: ServerOption = None,
+    checkpoints: CheckpointsOption = None,
+    threads: ThreadsOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Measure the success of a run's policy on unseen or given instances."""
+    with learner_errors():
+        from waypost_learner.runs import training
+
+        path = checkpoint_folder(checkpoints, store, server) / f"{run}.safetensors"
+        found = training.evaluate_run(path, instances, episodes, threads)
+    if as_json:
+        typer.echo(json.dumps({**vars(found), "success_rate": found.success_rate}))
+    else:
+        typer.echo(f"{found.successes} of {found.episodes} episodes succeeded: {found.success_rate:.1%}")
+
+
+@app.command()
+def oracle(
+    server: Annotated[str, typer.Option(help="The server.")] = "http://127.0.0.1:8000",
+    token: TokenOption = "",
+    run: Annotated[str | None, typer.Option(help="Only this run.")] = None,
+    kinds: Annotated[str | None, typer.Option(help="Only these kinds, comma-separated.")] = None,
+    error_rate: Annotated[float, typer.Option(min=0, max=1, help="Share of answers that are random ones.")] = 0.0,
+    seconds: Annotated[float, typer.Option(min=0, help="How long to think about each answer.")] = 0.0,
+    defer: Annotated[float, typer.Option(min=0, help="Leave queries so many seconds to people at work.")] = 0.0,
+    seed: Annotated[int, typer.Option(min=0, help="Of the random answers.")] = 0,
+    patience: PatienceOption = 300.0,
+) -> None:
+    """Answer queries with the oracle of their domain, until interrupted."""
+    chosen = _kinds(kinds)
+    with learner_errors():
+        from waypost.client import Client
+        from waypost_learner.experts.bot import Bot, BotSettings
+
+        client = Client(server, needed(token), patience=patience)
+        bot = Bot(client, BotSettings(run, chosen, error_rate, seconds, defer, seed))
+        answers, units = 0, 0.0
+
+        console = Console(stderr=True)
+        with console.status("Waiting for queries.") as status:
+
+            def count(receipt: Receipt) -> None:
+                nonlocal answers, units
+                answers, units = answers + 1, units + receipt.units
+                status.update(f"{answers} answers, {units:g} units; the last was query {receipt.query}.")
+
+            try:
+                bot.work_forever(count)
+            except KeyboardInterrupt:
+                console.print(f"{answers} answers, {units:g} units.")
+
+
+@app.command()
+def demo(
+    port: Annotated[int, typer.Option(min=0, max=65_535, help="The port; 0 takes a free one.")] = 8000,
+    database: Annotated[Path, typer.Option(help="The SQLite file that keeps what is answered.")] = Path(
+        "waypost-demo.db"
+    ),
+    episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 300,
+    instances: Annotated[str, typer.Option(help="The mazes: random or corners.")] = "corners",
+) -> None:
+    """Show it all on this machine: a server, a learner and a bot; prints a link that logs you in."""
+    with learner_errors():
+        from waypost_learner.demo import run_demo
+
+        run_demo(port, database, episodes, instances)
+
+
+@app.command()
+def gold(
+    run: Annotated[str, typer.Argument(help="The run's id.")],
+    server: Annotated[str, typer.Option(help="The server.")] = "http://127.0.0.1:8000",
+    token: TokenOption = "",
+    queries: Annotated[
+        int, typer.Option(min=1, max=1_000, help="How many of its answered queries, newest first.")
+    ] = 20,
+    rate: Annotated[
+        float | None, typer.Option(min=0, max=0.5, help="Share of each annotator's queries that are gold.")
+    ] = None,
+    patience: PatienceOption = 300.0,
+) -> None:
+    """Make queries of a run gold, with all that is right by the oracle of its domain."""
+    with learner_errors():
+        from waypost.client import Client
+        from waypost_learner.experts.gold import make_gold
+
+        client = Client(server, needed(token), patience=patience)
+        found = make_gold(client, run, queries)
+        share = client.patch_run(run, RunPatch(gold_rate=rate)) if rate is not None else client.run(run)
+    typer.echo(f"The run has {found} gold queries; {share.gold_rate:.1%} of what each annotator gets is gold.")
+
+
+@app.command()
+def practice(
+    file: Annotated[Path, typer.Argument(help="Where to write them.")],
+    domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
+    instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "corners",
+    seed: Annotated[int, typer.Option(min=0, help="Fixes them.")] = 0,
+) -> None:
+    """Write practice queries for people, marked by the domain's oracle; `WAYPOST_PRACTICE` serves them."""
+    with learner_errors():
+        from waypost.domain import find_domain
+        from waypost_learner.experts.practice import practice as made
+
+        found = made(find_domain(domain), instances, seed)
+    file.write_text(found, encoding="utf-8")
+    typer.echo(f"Practice queries are in {file}.")
+
+
+def main() -> None:
+    """Run `waypost`."""
+    app()
+
+
+# --- what the commands share
+
+
+def _kinds(text: str | None) -> Any:
+    from typing import get_args
+
+    from waypost.wire import Kind
+
+    if text is None:
+        return None
+    kinds = tuple(kind.strip() for kind in text.split(","))
+    unknown = [kind for kind in kinds if kind not in get_args(Kind)]
+    if unknown:
+        refuse(f"There is no kind of query {unknown[0]!r}; those that exist are: {', '.join(get_args(Kind))}.")
+    return kinds
+
+
+@dataclass
+class _TrainingProgress:
+    """A bar on a terminal; nothing elsewhere."""
+
+    episodes: int
+
+    def __enter__(self) -> "_TrainingProgress":
+        self._bar = progress_bar()
+        self._bar.start()
+        self._tests: list[bool] = []
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.stop()
+
+    def start(self, run: Run, first: int) -> None:
+        self._task = self._bar.add_task(f"run {run.id}", total=self.episodes, completed=first)
+
+    def episode(self, result: EpisodeResult, units: float) -> None:
+        del units
+        self._tests = [*self._tests, bool(result.test_success)][-100:]
+        rate = sum(self._tests) / len(self._tests)
+        self._bar.update(self._task, advance=1, description=f"success {rate:.0%} (trailing {len(self._tests)})")
+
+
+def _print_summary(summary: dict[str, Any], as_json: bool) -> None:
+    if as_json:
+        typer.echo(json.dumps(summary))
+        return
+    cost = summary["cost"]
+    typer.echo(f"Run {summary['run']}: {summary['episodes']} episodes, {summary['ended']}.")
+    typer.echo(f"Success on unseen instances, trailing 100: {summary['success_rate']:.0%}")
+    typer.echo(f"Expert cost: {cost['total']:g} units")
+    for kind, units in cost["by_kind"].items():
+        typer.echo(f"  {kind:<13}{units:>10g}")
+    for level, milestone in summary["first_at"].items():
+        if milestone:
+            typer.echo(f"{float(level):.0%} at episode {milestone['episode']}, {milestone['cost']:g} units")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,89 @@
+"""The maze navigation domain of the paper."""
+
+from pathlib import Path
+from typing import Any
+
+from waypost.domain import Horizons, InstanceSets
+from waypost.trajectory import Outcome, Subgoal
+from waypost_learner.domains.maze.env import MAX_STEPS, MazeEnv
+from waypost_learner.domains.maze.files import load_mazes
+from waypost_learner.domains.maze.generator import KINDS, maze_set, with_doors_redrawn
+from waypost_learner.domains.maze.maze import (
+    ACTIONS,
+    GO_TO_TARGET,
+    ROOMS,
+    SIZE,
+    SUBGOALS,
+    Maze,
+    cell_of,
+    room_beside,
+    room_of,
+)
+from waypost_learner.domains.maze.oracle import MazeOracle
+from waypost_learner.domains.maze.relabeling import relabeled, retraced
+from waypost_learner.domains.maze.symmetries import symmetries
+from waypost_learner.domains.maze.views import FLAT_VIEW, HI_VIEW, LO_VIEW
+
+
+class MazeDomain:
+    """Rooms, doors and lava; the subgoals lead into the next room or to the target."""
+
+    name = "maze"
+    subgoals = SUBGOALS
+    actions = ACTIONS
+    renderer = "maze"
+    horizons = Horizons(lo=10, hi=ROOMS**2, full=MAX_STEPS)  # a shortest path enters no room twice
+    observation_shape = (3, SIZE, SIZE)
+    symmetries = symmetries()
+    hi_view, lo_view, flat_view = HI_VIEW, LO_VIEW, FLAT_VIEW
+    relabeled = staticmethod(relabeled)
+    retraced = staticmethod(retraced)
+
+    def __init__(self) -> None:
+        self.oracle = MazeOracle()
+
+    def make_env(self) -> MazeEnv:
+        """Return a new maze environment."""
+        return MazeEnv()
+
+    def instances(self, name: str) -> InstanceSets:
+        """Return `random` or `corners` (1,000 + 1,000 mazes), or the mazes of an `.npz`, to train and to test on."""
+        if name in KINDS:
+            return InstanceSets(*maze_set(name), vary=with_doors_redrawn if name == "corners" else None)
+        if not name.endswith(".npz"):
+            raise ValueError(f"the maze has no instances {name!r}; there are {', '.join(KINDS)}, or a file.npz")
+        mazes = load_mazes(Path(name))
+        return InstanceSets(train=mazes, test=mazes)
+
+    def instance_view(self, instance: Maze) -> Any:
+        """Return rows of text, start and goal."""
+        return instance.to_json()
+
+    def state_view(self, env: Any) -> Any:
+        """Return the agent's cell, [row, column]."""
+        return list(env.unwrapped.cell)
+
+    def place(self, state: Any) -> Any:
+        """Return the agent's room; where it stands in a door, that door."""
+        cell = cell_of(state)
+        return room_of(cell) or cell
+
+    def succeeded(self, env: Any) -> bool:
+        """Return whether the agent is on the target."""
+        return bool(env.unwrapped.cell == env.unwrapped.maze.goal)
+
+    def outcome(self, instance: Maze, origin: Any, state: Any, subgoal: Subgoal) -> Outcome | None:
+        """Reached: the next room on that side, or the target. Failed: lava, or another room than the subgoal's.
+
+        "A pseudo-reward of 1 for [...] stepping through the correct door and negative reward for stepping into lava
+        or through other doors" (section 6.1); as in a demonstration, one is through a door in the room behind it.
+        """
+        here, began = cell_of(state), room_of(cell_of(origin))
+        if instance.lava[here]:
+            return "failed"
+        if subgoal == GO_TO_TARGET and here == instance.goal and began == room_of(here):
+            return "reached"
+        if room_of(here) in (None, began):
+            return None
+        wanted = None if subgoal == GO_TO_TARGET else room_beside(cell_of(origin), subgoal)
+        return "reached" if room_of(here) == wanted else "failed"

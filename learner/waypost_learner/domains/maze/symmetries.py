@@ -1,0 +1,30 @@
+"""The eight ways to turn and mirror a maze, and what becomes of directions."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from waypost.domain import Symmetry
+from waypost_learner.domains.maze.maze import GO_TO_TARGET, MOVES
+
+
+def symmetries() -> tuple[Symmetry, ...]:
+    """Return the seven symmetries of the square beside the identity."""
+    return tuple(_symmetry(turns, mirror) for mirror in (False, True) for turns in range(4) if turns or mirror)
+
+
+def _symmetry(turns: int, mirror: bool) -> Symmetry:
+    """Mirror left and right (if so), then turn a quarter counterclockwise `turns` times."""
+
+    def observe(observation: NDArray[np.float32]) -> NDArray[np.float32]:
+        picture = observation[:, :, ::-1] if mirror else observation
+        return np.ascontiguousarray(np.rot90(picture, turns, axes=(1, 2)))
+
+    def direction(move: tuple[int, int]) -> int:
+        row, column = move
+        column = -column if mirror else column
+        for _ in range(turns):
+            row, column = -column, row
+        return MOVES.index((row, column))
+
+    actions = tuple(direction(move) for move in MOVES)
+    return Symmetry(observe, (*actions, GO_TO_TARGET), actions)

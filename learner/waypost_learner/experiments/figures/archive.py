@@ -1,0 +1,129 @@
+"""Runs in one CSV, compressed: a row per episode and run, from which every figure can be drawn again."""
+
+import csv
+import gzip
+import io
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import fields
+from itertools import groupby
+from pathlib import Path
+from typing import Any, get_type_hints
+
+import numpy as np
+
+from waypost_learner.experiments.figures.data import KINDS, Column, RunCurves
+from waypost_learner.runs.config import TrainConfig
+
+FILE = "runs.csv.gz"
+
+_CONFIG = tuple(field.name for field in fields(TrainConfig))
+_CURVES = ("episode", "test_success", "success_rate", "hi_labels", "lo_samples", "learner_seconds", "lo_cost")
+COLUMNS = (*_CONFIG, *_CURVES, *KINDS)
+"""The configuration, what the learner reported, units by kind; what is not there is an empty field."""
+
+
+def write(folder: Path, runs: Iterable[RunCurves]) -> Path:
+    """Write runs to `folder`; the same runs make the same file."""
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(COLUMNS)
+    for run in runs:
+        config = [_written(getattr(run.config, name)) for name in _CONFIG]
+        numbers = [*(getattr(run, name) for name in _CURVES), *(run.units[kind] for kind in KINDS)]
+        rows.writerows([*config, *map(_number, row)] for row in zip(*numbers, strict=True))
+    path = folder / FILE
+    with path.open("wb") as file, gzip.GzipFile("", "wb", 9, file, mtime=0) as packed:  # no name, no time
+        packed.write(text.getvalue().encode())
+    return path
+
+
+def read(folder: Path) -> dict[TrainConfig, RunCurves]:
+    """Read the runs of `folder`.
+
+    Raises:
+        ValueError: there is no such file, or it is no CSV of runs; the message names the line.
+    """
+    path = folder / FILE
+    if not path.is_file():
+        raise ValueError(f"there is no {FILE} in {folder}")
+    try:
+        with gzip.open(path, "rt", newline="", encoding="utf-8") as file:
+            rows = csv.reader(file)
+            header = next(rows, [])
+            _check_header(path, header)
+            parsed = _parsed(path, header, rows)
+            return {config: _curves(config, [row for _, row in of]) for config, of in groupby(parsed, lambda r: r[0])}
+    except (OSError, EOFError, UnicodeDecodeError) as error:
+        raise ValueError(f"{path} cannot be read: {error}") from None
+
+
+def _check_header(path: Path, header: list[str]) -> None:
+    unknown = [name for name in header if name not in COLUMNS]
+    if unknown:  # a value that fixes a run, of a newer version, must not be overlooked
+        raise ValueError(f"{path} has a column {unknown[0]!r}, which this version of Waypost does not know")
+    lacking = [name for name in (*_CURVES, *KINDS, "algorithm") if name not in header]
+    if lacking:
+        raise ValueError(f"{path} has no column {lacking[0]!r}")
+
+
+def _parsed(path: Path, header: list[str], rows: Iterator[list[str]]) -> Iterator[tuple[TrainConfig, dict[str, float]]]:
+    numbers = [name for name in header if name not in _CONFIG]
+    configs: dict[tuple[str, ...], TrainConfig] = {}
+    for line, row in enumerate(rows, start=2):
+        if len(row) != len(header):
+            raise ValueError(f"{path}, line {line}: has {len(row)} fields; the header has {len(header)}")
+        by_name = dict(zip(header, row, strict=True))
+        given = {name: by_name[name] for name in _CONFIG if name in by_name}
+        key = tuple(given.values())
+        try:
+            if key not in configs:
+                configs[key] = TrainConfig(**{name: _READ[name](text) for name, text in given.items()})
+            values = {name: float(by_name[name] or "nan") for name in numbers}
+        except ValueError as error:
+            raise ValueError(f"{path}, line {line}: {error}") from None
+        yield configs[key], values
+
+
+def _curves(config: TrainConfig, rows: list[Mapping[str, float]]) -> RunCurves:
+    def column(name: str) -> Column:
+        return np.array([row[name] for row in rows], np.float64)
+
+    curves = {name: column(name) for name in _CURVES}
+    return RunCurves(config=config, **curves, units={kind: column(kind) for kind in KINDS})
+
+
+# --- values as text
+
+
+def _number(value: float) -> str:
+    """Return a number's shortest text that is read as the same number."""
+    if np.isnan(value):
+        return ""
+    return str(int(value)) if value == int(value) else repr(float(value))
+
+
+def _written(value: Any) -> str:
+    return "" if value is None else str(value)
+
+
+def _reader(hint: Any) -> Callable[[str], Any]:
+    """Return what makes a value of a type, or of one that may be None, from its text."""
+
+    def read_truth(text: str) -> bool:
+        if text not in {"True", "False"}:
+            raise ValueError(f"{text!r} is neither True nor False")
+        return text == "True"
+
+    readers: dict[Any, Callable[[str], Any]] = {
+        str: str,
+        int: int,
+        float: float,
+        bool: read_truth,
+        str | None: lambda text: text or None,
+        int | None: lambda text: int(text) if text else None,
+        float | None: lambda text: float(text) if text else None,
+    }
+    return readers[hint]
+
+
+_READ = {name: _reader(hint) for name, hint in get_type_hints(TrainConfig).items()}

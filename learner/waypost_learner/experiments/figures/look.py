@@ -1,0 +1,170 @@
+"""How figures look: colors, lines, markers, and a frame that says what is on its axes."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, StrMethodFormatter
+
+from waypost.wire import Kind
+from waypost_learner.experiments.figures.data import Comparison
+from waypost_learner.experiments.figures.statistics import Track, band
+from waypost_learner.experiments.plan import Series
+
+RC: dict[Any, Any] = {
+    "font.family": "DejaVu Sans",  # comes with matplotlib, so a figure is the same everywhere
+    "font.size": 10,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "0.9",
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "svg.hashsalt": "waypost",  # the same figure is the same file
+}
+SIZE, DPI = (8.0, 5.2), 120  # inches, dots per inch
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a curve is told from others: by color, and without color by its line and its marker."""
+
+    color: str
+    line: Any  # matplotlib's dashes
+    marker: str
+
+
+# Okabe and Ito's colors, which are told apart with every kind of color vision.
+_BLACK, _ORANGE, _SKY, _GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
+_BLUE, _VERMILLION, _PURPLE = "#0072B2", "#D55E00", "#CC79A7"
+_DASHED, _DOTTED, _DASH_DOT, _LONG = (0, (5, 2)), (0, (1, 1.2)), (0, (6, 2, 1, 2)), (0, (9, 2, 1, 2, 1, 2))
+
+_ALGORITHMS = {
+    "hg-dagger": Style(_BLUE, "solid", "o"),
+    "hg-stagger": Style(_VERMILLION, _DASHED, "s"),
+    "h-bc": Style(_VERMILLION, _DASHED, "s"),
+    "flat-dagger": Style(_GREEN, _DASH_DOT, "^"),
+    "flat-bc": Style(_PURPLE, _DOTTED, "D"),
+    "naive-h-dagger": Style(_ORANGE, _DASHED, "v"),
+    "hg-dagger-q": Style(_BLUE, "solid", "o"),
+    "h-dqn": Style(_VERMILLION, _DASHED, "s"),
+    "flat-dqn": Style(_PURPLE, _DOTTED, "D"),
+}
+_WITH_HEAD_START = Style(_GREEN, _DASH_DOT, "^")
+_WITH_OTHER_VALUES = {"hg-dagger": Style(_SKY, _LONG, "P"), "hg-stagger": Style(_ORANGE, _DASH_DOT, "v")}
+_BESIDE = Style(_BLACK, _DASHED, "o")
+
+KINDS: dict[Kind, tuple[str, Style]] = {
+    "hier_demo": ("HierDemo", Style(_PURPLE, _DOTTED, "D")),
+    "label_hi": ("Label HI", Style(_BLUE, "solid", "o")),
+    "label_lo": ("Label LO", Style(_VERMILLION, _DASHED, "s")),
+    "label_full": ("Label FULL", Style(_VERMILLION, _DASHED, "s")),
+    "inspect_full": ("Inspect FULL", Style(_GREEN, _DASH_DOT, "^")),
+    "inspect_lo": ("Inspect LO", Style(_ORANGE, _LONG, "v")),
+}
+SUM = Style(_BLACK, "solid", "o")
+
+
+def style_of(series: Series) -> Style:
+    """Return how a series is drawn, the same in every figure."""
+    if series.beside:
+        return _BESIDE
+    algorithm = series.config.algorithm
+    if series.config.values is not None and algorithm in _WITH_OTHER_VALUES:
+        return _WITH_OTHER_VALUES[algorithm]
+    return _WITH_HEAD_START if series.config.head_start is not None else _ALGORITHMS[algorithm]
+
+
+def frame(comparison: Comparison, title: str, panels: int = 1) -> tuple[Figure, list[Axes]]:
+    """Return a figure with a title, what is counted and of how many runs, and panels one above the other."""
+    group = comparison.group
+    with rc_context(RC):
+        figure = Figure(SIZE, layout=ConstrainedLayoutEngine(rect=(0.01, 0.01, 0.98, 0.83)))
+        figure.text(0.02, 0.965, title, fontsize=13, fontweight="bold", va="top")
+        subtitle = f"{group.title[:1].upper()}{group.title[1:]}. {_runs(comparison)}\n{group.counting}"
+        figure.text(0.02, 0.905, subtitle, fontsize=9, va="top", linespacing=1.4)
+        axes = figure.subplots(panels, sharex=True, squeeze=False)[:, 0]
+    return figure, list(axes)
+
+
+def _runs(comparison: Comparison) -> str:
+    numbers = sorted({len(runs) for runs in comparison.runs.values()})
+    said = " to ".join(str(number) for number in {numbers[0], numbers[-1]})
+    text = "One run each" if numbers == [1] else f"Median and range of {said} runs"
+    unfinished = any(not run.complete for runs in comparison.runs.values() for run in runs)
+    return f"{text}{', some unfinished' if unfinished else ''}."
+
+
+def curve(axes: Axes, tracks: Sequence[Track], style: Style) -> None:
+    """Draw the median of runs as a line, and their range as a band around it."""
+    found = band(tracks)
+    if found is None:
+        return
+    if len(tracks) > 1:
+        axes.fill_between(found.x, found.low, found.high, color=style.color, alpha=0.15, linewidth=0)
+    axes.plot(found.x, found.median, color=style.color, linestyle=style.line, linewidth=1.8)
+
+
+def point(axes: Axes, x: float, y: float, style: Style, gid: str) -> None:
+    """Draw a published number."""
+    (marker,) = axes.plot(
+        x, y, style.marker, color=style.color, markersize=8, markeredgecolor="white", markeredgewidth=1.2, zorder=5
+    )
+    marker.set_gid(f"published {gid}")
+
+
+def level(axes: Axes, y: float, style: Style, gid: str) -> None:
+    """Draw a published number that belongs to no point of the x axis: the level at which a curve flattens."""
+    line = axes.axhline(y, color=style.color, linewidth=1.0, linestyle=(0, (2, 4)))
+    line.set_gid(f"published {gid}")
+
+
+def legend(figure: Figure, entries: Sequence[tuple[str, Style]], explanation: str, markers: bool) -> None:
+    """Say below the axes what is what."""
+    handles = [
+        Line2D(
+            [], [], color=s.color, linestyle=s.line, linewidth=1.8, marker=s.marker if markers else None, label=label
+        )
+        for label, s in entries
+    ]
+    with rc_context(RC):
+        figure.legend(
+            handles=handles,
+            loc="outside lower left",
+            ncols=len(handles) if len(handles) <= 4 else 3,
+            handlelength=3.6,
+            title=explanation,
+            alignment="left",
+            title_fontsize=9,
+        )
+
+
+def percent_axis(axes: Axes, of: str) -> None:
+    """Let y be a success rate."""
+    axes.set_ylim(-2, 102)
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:.0f}%"))
+    axes.set_ylabel(of)
+
+
+def count_axis(axis: Any, what: str) -> None:
+    """Let an axis count something, from 0."""
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
+    axis.set_label_text(what)
+
+
+def log_axis(axis: Any, what: str) -> None:
+    """Let the x axis count something from 100 on, ten times as much at equal distances."""
+    axis.axes.set_xscale("log")
+    axis.axes.set_xlim(left=100)
+    count_axis(axis, what)
+
+    def between(value: float, _: int | None) -> str:
+        low, high = axis.get_view_interval()
+        return f"{value:,.0f}" if high < 10 * low else ""  # there is room for them
+
+    axis.set_minor_formatter(FuncFormatter(between))

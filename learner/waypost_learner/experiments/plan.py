@@ -1,0 +1,240 @@
+"""Which runs make which figure: `waypost sweep` makes them, `waypost figures` draws them.
+
+A plan is a list of configurations and nothing else, so that who draws figures needs no algorithm.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import zip_longest
+
+from waypost_learner.runs.config import TrainConfig
+
+SEEDS = (0, 1, 2, 3, 4)
+
+
+@dataclass(frozen=True)
+class Series:
+    """The runs of one curve, over seeds."""
+
+    config: TrainConfig  # of the first seed
+    label: str
+    beside: bool = False  # drawn so that the others are held against it
+    most: int | None = None  # of the seeds that are asked for, so many are enough
+
+    def runs(self, seeds: Sequence[int]) -> list[TrainConfig]:
+        """Return a run per seed."""
+        return [replace(self.config, seed=seed) for seed in seeds[: self.most]]
+
+
+@dataclass(frozen=True)
+class Group:
+    """Series that are compared with each other.
+
+    Args:
+        name: what `--figure` calls it.
+        title: the mazes, and what is particular about the runs.
+        counting: how episodes and costs are counted, for whoever reads a figure.
+        figures: what is drawn of it, by the names in `learner/experiments/figures/draw.py`.
+        series: its curves.
+        labels_only: whether costs leave inspections out, as the authors' do; then the published ones are comparable.
+        hybrid: whether acting is learned by reinforcement, so that success is held against LO samples, not cost.
+        lean: whether it is about the least cost: of hundreds of units, in hundreds of episodes.
+    """
+
+    name: str
+    title: str
+    counting: str
+    figures: tuple[str, ...]
+    series: tuple[Series, ...]
+    labels_only: bool = False
+    hybrid: bool = False
+    lean: bool = False
+
+
+def _imitation(instances: str, redraw: bool, *algorithms: str) -> tuple[Series, ...]:
+    labels = {
+        "hg-dagger": "hg-DAgger",
+        "h-bc": "h-BC",
+        "flat-dagger": "flat DAgger",
+        "flat-bc": "flat BC",
+        "naive-h-dagger": "naive h-DAgger",
+    }
+    passive = {"h-bc", "flat-bc"}  # nothing is rolled out, so nothing is drawn again
+    return tuple(
+        Series(TrainConfig(a, instances=instances, preset="paper", redraw=redraw and a not in passive), labels[a])
+        for a in algorithms
+    )
+
+
+def _hybrid(label: str, algorithm: str, head_start: float | None = None) -> Series:
+    config = TrainConfig(algorithm, instances="corners", preset="paper", episodes=8_000, head_start=head_start)
+    return Series(config, label)
+
+
+_FOUR = ("hg-dagger", "h-bc", "flat-dagger", "flat-bc")
+
+_AS_THE_AUTHORS = "Episodes: demonstrations, then one per failed rollout; costs: labels alone (as the authors count)."
+_HONEST = "Episodes: every rollout. Costs: every label and every inspection."
+_SUCCESS = ("success-by-episode", "success-by-cost", "success-by-lo-cost")
+
+_MAZE = (
+    Group(
+        "published",
+        "corner mazes, counted as the authors count",
+        _AS_THE_AUTHORS,
+        (*_SUCCESS, "cost-by-kind"),
+        _imitation("corners", True, *_FOUR),
+        labels_only=True,
+    ),
+    Group(
+        "naive",
+        "corner mazes, guided labels against labels everywhere",
+        _AS_THE_AUTHORS,
+        ("lo-cost-by-episode", "success-by-lo-cost"),
+        _imitation("corners", True, "hg-dagger", "naive-h-dagger"),
+        labels_only=True,
+    ),
+    Group(
+        "corners",
+        "corner mazes, every rollout an episode",
+        _HONEST,
+        (*_SUCCESS, "cost-by-kind"),
+        _imitation("corners", False, *_FOUR),
+    ),
+    Group(
+        "random",
+        "random mazes, every rollout an episode",
+        _HONEST,
+        (*_SUCCESS, "cost-by-kind"),
+        _imitation("random", False, *_FOUR),
+    ),
+    Group(
+        "hybrid",
+        "corner mazes, learning to act by reinforcement",
+        "Episodes: every rollout. LO samples: the learner's own steps in training rollouts.",
+        ("progress-by-sample", "success-by-sample"),
+        (
+            _hybrid("hg-DAgger/Q", "hg-dagger-q"),
+            _hybrid("h-DQN, head start 50 %", "h-dqn", head_start=0.5),
+            _hybrid("h-DQN", "h-dqn"),
+            _hybrid("flat DDQN", "flat-dqn"),
+        ),
+        hybrid=True,
+    ),
+)
+
+_FEWER = "relabeling=false repeat_penalty=0"
+
+
+def _lean(
+    label: str,
+    algorithm: str = "hg-dagger",
+    instances: str = "random",
+    values: str | None = None,
+    most: int | None = None,
+    episodes: int = 300,
+) -> Series:
+    config = TrainConfig(algorithm, instances=instances, preset="lean", episodes=episodes, values=values)
+    return Series(config, label, most=most)
+
+
+def _part(label: str, values: str, episodes: int = 300) -> Series:
+    return _lean(label, values=values, most=3, episodes=episodes)
+
+
+def _paper(instances: str) -> Series:
+    return Series(TrainConfig("hg-dagger", instances=instances, preset="paper"), "hg-DAgger, paper", True, most=1)
+
+
+_AT_ONCE = "train_hi.idle=0 train_lo.idle=0"  # enough, where every episode brings labels
+_SAMPLED = "monitoring.share=0.1 monitoring.rate=0.9"
+_FAILING = 100  # episodes, each labeled whole, cost more than 300 of what succeeds
+
+_LEAN = (
+    Group(
+        "lean-random",
+        "random mazes, the preset lean beside the paper's",
+        _HONEST,
+        ("success-by-log-cost", "success-by-episode", "cost-by-kind"),
+        (
+            _lean("hg-DAgger"),
+            _lean("hg-DAgger, nothing more assumed", values=_FEWER),
+            _lean("naive h-DAgger", "naive-h-dagger", values=_AT_ONCE, most=3),
+            _lean("h-BC", "h-bc", values=_AT_ONCE, most=3),
+            _lean("flat DAgger", "flat-dagger", most=3),
+            _lean("flat BC", "flat-bc", most=3),
+            _paper("random"),
+        ),
+        lean=True,
+    ),
+    Group(
+        "lean-corners",
+        "corner mazes, the preset lean beside the paper's",
+        _HONEST,
+        ("success-by-log-cost",),
+        (
+            _lean("hg-DAgger", instances="corners"),
+            _paper("corners"),
+        ),
+        lean=True,
+    ),
+    Group(
+        "lean-parts",
+        "random mazes, hg-DAgger with each part of lean removed alone",
+        _HONEST,
+        (),
+        (
+            _lean("all of lean"),
+            _part("without relabeling", "relabeling=false"),
+            _part("without the repeat penalty", "repeat_penalty=0"),
+            _part("without symmetries, untied", "symmetries=false tied=false"),
+            _part("untied", "tied=false"),
+            _part("without planning, 100 episodes", "planning=null", _FAILING),
+            _part("without views and planning, 100 episodes", "views=false", _FAILING),
+            _lean("without averaging", values="train_hi.averaging=null train_lo.averaging=null"),
+            _part("without training on", _AT_ONCE),
+            _part("20 demonstrations", "warm_start=20"),
+        ),
+        lean=True,
+    ),
+    Group(
+        "lean-asking",
+        "random mazes, lean asking less than Algorithm 2 does",
+        _HONEST,
+        ("success-by-log-cost",),
+        (
+            _lean("Algorithm 2"),
+            _lean("sampled monitoring", values=_SAMPLED),
+            _lean("single states", "hg-stagger"),
+            _lean("both", "hg-stagger", values=_SAMPLED),
+        ),
+        lean=True,
+    ),
+)
+
+GROUPS = {group.name: group for group in (*_MAZE, *_LEAN)}
+"""What can be run and drawn on its own."""
+
+FIGURES = {
+    "maze": tuple(group.name for group in _MAZE),
+    "lean": tuple(group.name for group in _LEAN),
+    **{name: (name,) for name in GROUPS},
+}
+"""What `--figure` can name: the maze section of the paper, the least expert cost, or one group of them."""
+
+
+def find_figure(name: str) -> list[Group]:
+    """Return the groups of a figure.
+
+    Raises:
+        ValueError: there is none of that name; the message lists those that exist.
+    """
+    if name not in FIGURES:
+        raise ValueError(f"there is no figure {name!r}; those that exist are: {', '.join(FIGURES)}")
+    return [GROUPS[group] for group in FIGURES[name]]
+
+
+def runs_of(groups: Sequence[Group], seeds: Sequence[int]) -> list[TrainConfig]:
+    """Return every run of the groups once, the first seed of all series first."""
+    runs = [each.runs(seeds) for group in groups for each in group.series]
+    return list(dict.fromkeys(run for nth in zip_longest(*runs) for run in nth if run is not None))

@@ -1,0 +1,136 @@
+"""T rounds of hg-DAgger or flat DAgger on finite classes, by the code that real runs are made with.
+
+The episodes are `learner/algorithms`; questions become wire messages, the oracle expert answers them, and
+`server/kinds.py` prices the answers. Only the learner is another one: halving instead of networks.
+"""
+
+from collections import Counter
+from collections.abc import Generator
+from dataclasses import dataclass
+from itertools import count
+from typing import Any, Literal, cast
+
+import numpy as np
+
+from waypost import prices as pricing
+from waypost import wire
+from waypost.domain import Domain
+from waypost.prices import to_units
+from waypost.trajectory import Segment, State, Trajectory
+from waypost_learner.algorithms.flat_dagger import flat_dagger
+from waypost_learner.algorithms.hg_dagger import hg_dagger
+from waypost_learner.algorithms.learner import Learner
+from waypost_learner.algorithms.queries import Answer, Query
+from waypost_learner.experiments.theory.adversary import worst_instance
+from waypost_learner.experiments.theory.bounds import Expense, operation_costs, theorem_1, theorem_2
+from waypost_learner.experiments.theory.classes import N_ACTIONS, Cell, Classes, draw_classes
+from waypost_learner.experiments.theory.halving import Product, Simple, VersionSpace
+from waypost_learner.experiments.theory.task import Task, observed
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.policies.datasets import Labels
+from waypost_learner.remote.translation import Translator
+from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
+
+Episodes = Literal["worst", "random"]
+"""Where episodes come from: an adversary who knows the learner, or chance."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """What one run cost, and what the theorem allows."""
+
+    spent: Expense
+    bound: Expense
+    asked: Counter[str]  # queries by kind
+    mistakes: dict[PolicyKey, int]  # of each policy
+
+
+class HalvingLearner:
+    """Stands in for `Learner`: mu and pi_g, or the flat policy, each a version space."""
+
+    def __init__(self, task: Task, classes: Classes, flat: bool) -> None:
+        self._task, self._flat = task, flat
+        self._instance: Any = None
+        n_subgoals = len(task.subgoals)
+        subpolicies = {g: Simple(classes.pi, N_ACTIONS) for g in range(n_subgoals)}
+        self.policies: dict[PolicyKey, VersionSpace] = (
+            {FLAT: Product(classes)} if flat else {META: Simple(classes.mu, n_subgoals), **subpolicies}
+        )
+
+    def start(self, instance: Any) -> State:
+        """Return the start state s of an instance."""
+        self._instance = instance
+        return observed(self._task.first_state(instance))
+
+    def roll_out(self, s: State) -> Trajectory:
+        """Roll out the present majorities from s."""
+        horizons, sigma = self._task.horizons, list[Segment]()
+        if self._flat:
+            return (self._execute(None, s, horizons.full),)
+        for _ in range(horizons.hi):
+            sigma.append(self._execute(self.policies[META].choose(s.observation), s, horizons.lo))
+            s = sigma[-1].states[-1]
+        return tuple(sigma)
+
+    def _execute(self, subgoal: int | None, s: State, n_steps: int) -> Segment:
+        policy = self.policies[FLAT if subgoal is None else subgoal]
+        states, actions = [s], list[int]()
+        for _ in range(n_steps):
+            actions.append(policy.choose(states[-1].observation))
+            states.append(observed(self._task.successor(self._instance, states[-1].view, actions[-1])))
+        return Segment(subgoal, tuple(states), tuple(actions), terminated=False)
+
+    def learn(self, labels: Labels) -> None:
+        """Remove policies that erred."""
+        for key, rows in labels.rows.items():
+            self.policies[key].learn(rows)
+
+
+class PricedExpert:
+    """The task's oracle, with an account."""
+
+    def __init__(self, task: Task, prices: wire.Prices) -> None:
+        # The task has of a domain what questions and answers need, and no environment.
+        self._domain, self._prices = cast(Domain, task), prices
+        self._expert = OracleExpert(self._domain)
+        self.spent, self.asked = Counter[str](), Counter[str]()  # micro-units and queries, by kind
+
+    def carry_out(self, episode: Generator[Query, Any, Labels], instance: Any, number: int) -> Labels:
+        """Answer all that the episode of this number asks; return its labels."""
+        translator = Translator(self._domain, instance)
+        answer: Answer | None = None
+        try:
+            for ordinal in count():
+                ask = translator.ask(episode.send(answer), number, ordinal)
+                said = self._expert(ask)
+                self.asked[ask.kind] += 1
+                self.spent[ask.kind] += pricing.cost(said, self._prices).units
+                answer = translator.answer(said)
+        except StopIteration as over:
+            labels: Labels = over.value
+        return labels
+
+
+def simulate(cell: Cell, seed: int, rounds: int, flat: bool, episodes: Episodes) -> Result:
+    """Run one learner.
+
+    Task and expert depend on the cell and the seed alone, so both learners meet the same, and the same random episodes.
+    """
+    rng = np.random.default_rng([seed, cell.h_hi, cell.h_lo, cell.n_mu, cell.n_pi, cell.n_subgoals])
+    classes = draw_classes(cell, rng)
+    task, prices = Task(cell, classes, rng), wire.Prices()  # the paper's
+    learner, expert = HalvingLearner(task, classes, flat), PricedExpert(task, prices)
+    for t in range(rounds):
+        hard = worst_instance(task, classes, learner.policies) if episodes == "worst" else None
+        instance = hard or task.draw_instance(rng)
+        s, stand_in = learner.start(instance), cast(Learner, learner)
+        episode = flat_dagger(s, stand_in) if flat else hg_dagger(s, stand_in)
+        learner.learn(expert.carry_out(episode, instance, t))
+    costs = operation_costs(cell, prices)
+    monitoring = to_units(expert.spent["inspect_full"])
+    return Result(
+        spent=Expense(monitoring, to_units(expert.spent.total()) - monitoring),
+        bound=theorem_2(cell, rounds, costs) if flat else theorem_1(cell, classes.n_used, rounds, costs),
+        asked=expert.asked,
+        mistakes={key: policy.mistakes for key, policy in learner.policies.items()},
+    )

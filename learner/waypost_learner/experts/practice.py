@@ -1,0 +1,171 @@
+"""Practice queries: a learner that errs now and then, asked about, with what is right by the domain's oracle."""
+
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from waypost import wire
+from waypost.domain import Domain
+from waypost.trajectory import Segment, Trajectory, n_actions
+from waypost_learner.algorithms.queries import InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, Query
+from waypost_learner.experts.solutions import solve
+from waypost_learner.remote.translation import Translator, vocabulary
+from waypost_learner.rollout.simulator import Simulator
+
+WRONG_SUBGOAL, WRONG_ACTION, WRONG_END = 0.12, 0.04, 0.1  # how often the learner errs
+CANDIDATES = 150  # rollouts that the exercises are picked from
+MOST_ACTIONS, MOST_SEGMENTS = 14, 6  # an exercise is short
+
+
+@dataclass(frozen=True)
+class Rollout:
+    """What the erring learner did on an instance."""
+
+    instance: Any
+    sigma: Trajectory
+    succeeded: bool
+
+
+def practice(domain: Domain, instances: str, seed: int) -> str:
+    """Return the text of the file of practice queries: two of each kind, as far as the rollouts have them.
+
+    Raises:
+        ValueError: the domain has no oracle, or nothing to pick from came of the rollouts.
+    """
+    rollouts = list(islice(_rollouts(domain, instances, seed), CANDIDATES))
+    picks = [pick for pick in _picks() if domain.subgoals or pick.flat]
+    found = [_exercise(domain, rollouts, place, pick) for place, pick in enumerate(picks)]
+    exercises = [one for one in found if one is not None]
+    if not exercises:
+        raise ValueError("the rollouts gave nothing to practice on: try another --seed")
+    lines = ",\n".join(json.dumps(one, ensure_ascii=False) for one in exercises)
+    return f'{{"vocabulary": {vocabulary(domain).model_dump_json()},\n"exercises": [\n{lines}\n]}}\n'
+
+
+def _rollouts(domain: Domain, instances: str, seed: int) -> Iterator[Rollout]:
+    """Yield what a learner does that mostly follows the oracle."""
+    oracle, rng, simulator = domain.oracle, np.random.default_rng(seed), Simulator(domain)
+    if oracle is None:
+        raise ValueError(f"the domain {domain.name!r} has no oracle: nothing is known of its answers")
+    train = domain.instances(instances).train
+    while True:
+        instance = train[int(rng.integers(len(train)))]
+        state, sigma, view = simulator.reset(instance), list[Segment](), domain.instance_view(instance)
+        while not simulator.ended and len(sigma) < domain.horizons.hi:
+            subgoal = oracle.good_subgoals(view, state.view)[0]
+            if rng.random() < WRONG_SUBGOAL:
+                subgoal = int(rng.integers(len(domain.subgoals)))
+            states, actions = [state], list[int]()
+            terminated = False
+            while not terminated and not simulator.ended and len(actions) < domain.horizons.lo:
+                good = oracle.good_actions(view, states[0].view, state.view, subgoal)
+                if not good or rng.random() < WRONG_ACTION:
+                    good = [int(rng.integers(len(domain.actions)))]
+                state = simulator.step(good[0])
+                actions.append(good[0])
+                states.append(state)
+                reached = oracle.reached(view, states[0].view, state.view, subgoal)
+                terminated = reached and rng.random() >= WRONG_END
+            sigma.append(Segment(subgoal, tuple(states), tuple(actions), terminated))
+        yield Rollout(instance, tuple(sigma), simulator.succeeded)
+
+
+@dataclass(frozen=True)
+class Pick:
+    """Which query to make an exercise of: the one for which `worth` is highest, if it is above 0."""
+
+    queries: Callable[[Rollout], Iterator[Query]]
+    worth: Callable[[wire.Known, wire.Ask], float]
+    flat: bool = False  # needs no subgoals
+
+
+def _picks() -> list[Pick]:
+    return [
+        Pick(_inspect_full, lambda known, ask: _is(known, "pass") / _length(ask), flat=True),
+        Pick(_inspect_full, lambda known, ask: _is(known, "fail") * _length(ask), flat=True),
+        Pick(_inspect_lo, lambda known, ask: _is(known, "pass") * _length(ask)),
+        Pick(_inspect_lo, lambda known, ask: _is(known, "fail") * _length(ask)),
+        Pick(_label_hi, lambda known, ask: _errors(known, ask) == 1),
+        Pick(_label_hi, lambda known, ask: (_errors(known, ask) == 2) * (1 + _choices(known))),
+        Pick(_label_lo, lambda known, ask: (_errors(known, ask) == 1 and not _ends_early(known, ask)) * _length(ask)),
+        Pick(_label_lo, lambda known, ask: _ends_early(known, ask) * _length(ask)),
+        Pick(_label_full, lambda known, ask: (_errors(known, ask) == 1) * _length(ask), flat=True),
+        Pick(_label_full, lambda known, ask: (_errors(known, ask) == 2) * (1 + _choices(known)), flat=True),
+    ]
+
+
+def _exercise(domain: Domain, rollouts: list[Rollout], place: int, pick: Pick) -> dict[str, Any] | None:
+    best: tuple[float, dict[str, Any]] = (0.0, {})
+    for rollout in rollouts:
+        translator = Translator(domain, rollout.instance)
+        for query in pick.queries(rollout):
+            ask = translator.ask(query, episode=0, ordinal=place)
+            solution = solve(domain, ask)
+            worth = float(pick.worth(solution.known, ask))
+            if worth > best[0]:
+                exercise = wire.KnownAsk(ask=ask, known=solution.known).model_dump(mode="json")
+                best = (worth, {**exercise, "reasons": list(solution.reasons)})
+    return best[1] or None
+
+
+# --- the queries of a rollout that are short enough
+
+
+def _inspect_full(rollout: Rollout) -> Iterator[Query]:
+    yield InspectFull(rollout.sigma)
+
+
+def _inspect_lo(rollout: Rollout) -> Iterator[Query]:
+    for place, segment in enumerate(rollout.sigma):
+        yield InspectLo(segment, rollout.sigma[:place])
+
+
+def _label_hi(rollout: Rollout) -> Iterator[Query]:
+    if 3 <= len(rollout.sigma) <= MOST_SEGMENTS:
+        yield LabelHi(rollout.sigma)
+
+
+def _label_lo(rollout: Rollout) -> Iterator[Query]:
+    for place, segment in enumerate(rollout.sigma):
+        yield LabelLo(segment, rollout.sigma[:place])
+
+
+def _label_full(rollout: Rollout) -> Iterator[Query]:
+    if 4 <= n_actions(rollout.sigma) <= MOST_ACTIONS:
+        yield LabelFull(rollout.sigma)
+
+
+# --- what makes an exercise a good one
+
+
+def _is(known: wire.Known, verdict: str) -> bool:
+    return isinstance(known, wire.KnownVerdict) and known.verdict == verdict
+
+
+def _length(ask: wire.Ask) -> int:
+    return 0 if isinstance(ask, wire.AskHierDemo) else sum(len(segment.actions) for segment in ask.segments)
+
+
+def _right(known: wire.Known) -> list[list[str]]:
+    return known.subgoals if isinstance(known, wire.KnownSubgoals) else getattr(known, "actions", [])
+
+
+def _errors(known: wire.Known, ask: wire.Ask) -> int:
+    """Count the labels in which the learner's own choice is wrong."""
+    suggestion: Any = ask.suggestion
+    own = suggestion.subgoals if isinstance(known, wire.KnownSubgoals) else suggestion.actions
+    return sum(choice not in right for choice, right in zip(own, _right(known), strict=False))
+
+
+def _choices(known: wire.Known) -> int:
+    """Count the labels in which several choices are right."""
+    return sum(len(right) > 1 for right in _right(known))
+
+
+def _ends_early(known: wire.Known, ask: wire.Ask) -> bool:
+    """Say whether the segment should have ended before it did, but not at once."""
+    return isinstance(known, wire.KnownSegment) and known.end is not None and 0 < known.end < _length(ask)

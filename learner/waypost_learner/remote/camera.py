@@ -1,0 +1,74 @@
+"""Pictures of states, for domains that the page has no renderer for (`Pictured`).
+
+They are taken when a query is asked, not while the learner acts: its trajectory is carried out again in an environment
+of the camera's own, which the determinism of a domain allows. A frame goes by the SHA-256 of its PNG.
+"""
+
+import hashlib
+import io
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from waypost.domain import Domain, Pictured
+from waypost.trajectory import Action, Segment
+
+
+class Camera:
+    """Takes pictures along trajectories of one instance, each once. A domain without pictures gets none."""
+
+    def __init__(self, domain: Domain, instance: Any) -> None:
+        self._domain, self._instance = domain, instance
+        self._pictured = domain if isinstance(domain, Pictured) else None
+        self._env = domain.make_env() if self._pictured else None
+        self._hashes: dict[tuple[Action, ...], str] = {}  # by the actions that lead there
+        self._new: dict[str, bytes] = {}
+
+    def frames(self, segments: Sequence[Segment]) -> list[list[str]]:
+        """Return the hash of a frame per state, for segments that follow each other from the start of the episode."""
+        hashes = self.along([action for segment in segments for action in segment.actions])
+        ends, frames = 0, []
+        for segment in segments:
+            first, ends = ends, ends + len(segment.actions)
+            frames.append(hashes[first : ends + 1])
+        return frames
+
+    def along(self, actions: Sequence[Action]) -> list[str]:
+        """Return the hash of a frame per state, from the start of the episode on; none if there are no pictures."""
+        if self._pictured is None:
+            return []
+        ways = [tuple(actions[:n]) for n in range(len(actions) + 1)]
+        if any(way not in self._hashes for way in ways):
+            self._take(ways[-1])
+        return [self._hashes[way] for way in ways]
+
+    def developed(self) -> dict[str, bytes]:
+        """Return the files of all frames taken since the last call, by their hashes."""
+        new, self._new = self._new, {}
+        return new
+
+    def _take(self, actions: tuple[Action, ...]) -> None:
+        for n, pixels in enumerate(self._along(actions)):
+            if actions[:n] not in self._hashes:
+                png = encoded(pixels)
+                self._hashes[actions[:n]] = hashlib.sha256(png).hexdigest()
+                self._new[self._hashes[actions[:n]]] = png
+
+    def _along(self, actions: Sequence[Action]) -> Iterator[Any]:
+        """Yield the picture of each state."""
+        assert self._pictured is not None
+        assert self._env is not None
+        self._env.reset(options={"instance": self._instance})
+        yield self._pictured.frame(self._env)
+        for action in actions:
+            self._env.step(np.int64(action))
+            yield self._pictured.frame(self._env)
+
+
+def encoded(pixels: Any) -> bytes:
+    """Return uint8[rows, columns, 3] as a PNG."""
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, "PNG")
+    return file.getvalue()

@@ -1,0 +1,130 @@
+"""The learner's environment, offered over the play socket while a demonstration is open, so that a person can play it.
+
+The annotator's side sends the whole demonstration each time and this side carries it out. Nothing is lost with a
+connection, an environment or a process: who connects again sends again.
+"""
+
+import logging
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager
+from http import HTTPStatus
+
+from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketException
+from websockets.frames import CloseCode
+from websockets.sync.client import ClientConnection
+
+from waypost import wire
+from waypost_learner.remote.camera import Camera
+from waypost_learner.remote.translation import Translator
+from waypost_learner.rollout.simulator import Simulator
+
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.1, 2.0  # seconds between attempts to connect
+_PASSING = frozenset({408, 429})  # refusals that later attempts may not meet, besides the server's own failures
+
+log = logging.getLogger("waypost")
+
+Connect = Callable[[], AbstractContextManager[ClientConnection]]
+Upload = Callable[[Mapping[str, bytes]], None]
+
+
+class Stage:
+    """One instance's environment, carried to wherever a demonstration stands."""
+
+    def __init__(self, translator: Translator, upload: Upload) -> None:
+        self._translator, self._upload = translator, upload
+        self._simulator = Simulator(translator.domain)
+        self._camera = Camera(translator.domain, translator.instance)  # the translator's own is another thread's
+        self._begin()
+
+    def perform(self, moves: wire.PlayMoves) -> wire.PlayStates:
+        """Carry a demonstration out and return the states that the other side does not know."""
+        names = self._translator.domain.actions
+        actions = [names.index(action) for segment in moves.segments for action in segment.actions]
+        if self._actions != actions[: len(self._actions)]:  # something was taken back
+            self._begin()
+        self._go_on(actions[len(self._actions) :])
+        known = min(moves.known, len(self._views))
+        frames = self._camera.along(self._actions)[known:]
+        self._upload(self._camera.developed())
+        return wire.PlayStates(
+            type="states",
+            number=moves.number,
+            known=known,
+            states=self._views[known:],
+            frames=frames,
+            ended=self._simulator.ended,
+            succeeded=self._simulator.succeeded,
+        )
+
+    def _begin(self) -> None:
+        self._views = [self._simulator.reset(self._translator.instance).view]
+        self._actions: list[int] = []
+
+    def _go_on(self, actions: Sequence[int]) -> None:
+        for action in actions:
+            if self._simulator.ended:
+                break
+            self._views.append(self._simulator.step(action).view)
+            self._actions.append(action)
+
+
+class Offer:
+    """Keeps a stage connected, on a thread, until it is withdrawn or turned away for good."""
+
+    def __init__(self, connect: Connect, translator: Translator, upload: Upload) -> None:
+        self._connect, self._stage = connect, Stage(translator, upload)
+        self._over = threading.Event()
+        self._socket: ClientConnection | None = None
+        self._lock = threading.Lock()  # between connecting and withdrawing
+        threading.Thread(target=self._run, name="stage", daemon=True).start()
+
+    def withdraw(self) -> None:
+        """Leave the socket; the thread ends by itself."""
+        with self._lock:
+            self._over.set()
+            if self._socket is not None:
+                self._socket.close()
+
+    def _run(self) -> None:
+        pause = _FIRST_PAUSE
+        while not self._over.is_set():
+            try:
+                with self._connect() as socket:
+                    pause = _FIRST_PAUSE
+                    self._play(socket)
+            except (OSError, WebSocketException) as trouble:
+                status = _refusal(trouble)
+                if status is not None:
+                    if status != HTTPStatus.CONFLICT:  # answered meanwhile, or offered by another process
+                        log.warning("Nobody can play a demonstration: %s", trouble)
+                    return
+            self._over.wait(pause)
+            pause = min(2 * pause, _LONGEST_PAUSE)
+
+    def _play(self, socket: ClientConnection) -> None:
+        with self._lock:
+            if self._over.is_set():
+                return
+            self._socket = socket
+        socket.send(wire.PlayOffer(type="offer").model_dump_json())
+        while True:
+            moves = wire.PlayMoves.model_validate_json(socket.recv())
+            socket.send(self._stage.perform(moves).model_dump_json())
+
+
+def offer(connect: Connect, translator: Translator, upload: Upload) -> Callable[[], None]:
+    """Offer an instance's environment on a play socket, its pictures uploaded; returns how to withdraw it."""
+    return Offer(connect, translator, upload).withdraw
+
+
+def _refusal(trouble: Exception) -> int | None:
+    """Return the status of a refusal that connecting again would meet again: a handshake's, or a close code - 4000."""
+    if isinstance(trouble, InvalidStatus):
+        status = trouble.response.status_code
+    elif isinstance(trouble, ConnectionClosed) and trouble.rcvd is not None:
+        too_big = trouble.rcvd.code == CloseCode.MESSAGE_TOO_BIG
+        status = HTTPStatus.REQUEST_ENTITY_TOO_LARGE if too_big else trouble.rcvd.code - 4_000
+    else:
+        return None
+    return status if 400 <= status < 500 and status not in _PASSING else None

@@ -1,0 +1,73 @@
+"""What reinforcement learning learns from: transitions, read off the segments of a rollout."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from waypost.trajectory import Segment, Trajectory
+
+
+@dataclass(frozen=True)
+class Transition:
+    """(s, choice, r, s~): the choice is an action, or a subgoal with all the steps it took."""
+
+    observation: NDArray[np.float32]
+    choice: int
+    reward: float  # discounted within the transition
+    next_observation: NDArray[np.float32]
+    steps: int  # how many the choice took; 0 if nothing comes after
+
+    def seen(self, observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]) -> "Transition":
+        """Return the same transition through a view."""
+        return replace(self, observation=observe(self.observation), next_observation=observe(self.next_observation))
+
+
+@dataclass(frozen=True)
+class PseudoReward:
+    """pseudo(s; g) of Algorithm 3 (line 10): what carrying a subgoal out brings."""
+
+    reached: float = 1.0
+    failed: float = -0.5
+    step: float = -0.02  # -kappa
+
+
+def of_subgoal(segment: Segment, pseudo: PseudoReward) -> list[Transition]:
+    """Return (s, a, r~, s~) of a segment, for Q_g. Nothing comes after the end of the subgoal or of the episode."""
+    transitions = []
+    for step, action in enumerate(segment.actions):
+        last = step == len(segment.actions) - 1
+        ends = last and (segment.outcome is not None or segment.final)
+        reward = getattr(pseudo, segment.outcome) if last and segment.outcome else pseudo.step
+        transitions.append(_transition(segment, step, action, reward, ends))
+    return transitions
+
+
+def of_actions(segment: Segment) -> list[Transition]:
+    """Return (s, a, r, s') of a flat trajectory, for a flat Q."""
+    last = len(segment.actions) - 1
+    return [
+        _transition(segment, step, action, reward, segment.final and step == last)
+        for step, (action, reward) in enumerate(zip(segment.actions, segment.rewards, strict=True))
+    ]
+
+
+def of_subgoals(sigma: Trajectory, discount: float) -> list[Transition]:
+    """Return (s_h, g_h, R_h, s_{h+1}) of sigma, for the Q of a meta-controller (Kulkarni et al. 2016)."""
+    return [
+        Transition(
+            segment.start.observation,
+            segment.subgoal,
+            sum(discount**step * reward for step, reward in enumerate(segment.rewards)),
+            segment.states[-1].observation,
+            0 if segment.final else len(segment.actions),
+        )
+        for segment in sigma
+        if segment.subgoal is not None
+    ]
+
+
+def _transition(segment: Segment, step: int, action: int, reward: float, ends: bool) -> Transition:
+    before, after = segment.states[step].observation, segment.states[step + 1].observation
+    return Transition(before, action, reward, after, 0 if ends else 1)

@@ -1,0 +1,46 @@
+"""TensorBoard events of a run, beside its checkpoint: `tensorboard --logdir FOLDER`."""
+
+from pathlib import Path
+from types import TracebackType
+
+from torch.utils.tensorboard import SummaryWriter
+
+from waypost import wire
+
+
+class Tracker:
+    """Writes what each episode brought; use as a context manager.
+
+    Args:
+        folder: of this run's events.
+        first: the episode to go on with; events of later ones, from before an interruption, are dropped.
+    """
+
+    def __init__(self, folder: Path, first: int) -> None:
+        self._writer = SummaryWriter(str(folder), purge_step=first)
+        self._tests: list[bool] = []
+
+    def __enter__(self) -> "Tracker":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._writer.close()
+
+    def episode(self, result: wire.EpisodeResult, units: float) -> None:
+        """Write one episode's numbers; `units` is what its answers cost."""
+        self._tests = [*self._tests, bool(result.test_success)][-100:]
+        values = {
+            "success/test": sum(self._tests) / len(self._tests),  # over the trailing 100, or those since the start
+            "expert/units": units,
+            "labels/hi": result.hi_labels,
+            "labels/lo": result.lo_labels,
+            "steps/train": result.train_steps,
+            "steps/test": result.test_steps,
+            "seconds": result.seconds,
+        }
+        if result.train_success is not None:
+            values["success/train"] = float(result.train_success)
+        for name, value in values.items():
+            self._writer.add_scalar(name, value, result.episode)

@@ -1,0 +1,230 @@
+"""The REST client (`/api/v1`): what a learner and an annotator program need, one method a call.
+
+A call whose reply is lost is sent again until `patience` is over: asking, answering, using and reporting are
+idempotent on the server, so a server that was killed and came back sees nothing twice.
+"""
+
+import base64
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
+from typing import Any, TypeVar
+
+import httpx2
+from pydantic import BaseModel
+from websockets.sync.client import ClientConnection, connect
+
+from waypost import wire
+
+M = TypeVar("M", bound=BaseModel)
+
+PATIENCE_SECONDS = 300.0
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.05, 2.0
+_HASHES_AT_ONCE = 1_000
+_UPLOAD_BYTES = 2 * 2**20  # of a request body with frames; one frame alone may be larger
+_CONNECT_SECONDS = 5.0
+_LARGEST_MESSAGE = 4 * 2**20  # on a play socket, as the server has it
+_TRANSIENT = frozenset({429, 502, 503, 504})
+
+
+class Refused(Exception):
+    """The server refused a call; the problem document says why."""
+
+    def __init__(self, problem: wire.Problem) -> None:
+        super().__init__(f"{problem.title}: {problem.detail}")
+        self.problem = problem
+
+    @property
+    def name(self) -> str:
+        """The stable name of the problem, such as `lease-expired`."""
+        return self.problem.type.rsplit("/", 1)[-1]
+
+
+class Unreachable(Exception):
+    """No answer from the server for as long as patience lasts."""
+
+
+class Client:
+    """Calls one server as one user.
+
+    Args:
+        server: the server's base URL, such as http://127.0.0.1:8000.
+        token: an API token.
+        transport: how requests travel; the network unless given.
+        patience: how long to go on when the server does not answer, seconds.
+    """
+
+    def __init__(
+        self,
+        server: str,
+        token: str,
+        transport: httpx2.BaseTransport | None = None,
+        patience: float = PATIENCE_SECONDS,
+    ) -> None:
+        self._patience = patience
+        self._uploaded: set[str] = set()  # frames that the server has
+        self._http = httpx2.Client(
+            base_url=f"{server.rstrip('/')}/api/v1",
+            headers={"Authorization": f"Bearer {token}"},
+            transport=transport,
+            timeout=httpx2.Timeout(90.0, connect=_CONNECT_SECONDS),  # long polls last up to 60 s
+        )
+
+    def close(self) -> None:
+        """Close the connections."""
+        self._http.close()
+
+    # --- the learner's calls
+
+    def create_run(self, run: wire.RunCreate) -> wire.Run:
+        """Create a run."""
+        return self._call(wire.Run, "POST", "/runs", run)
+
+    def runs(self) -> list[wire.Run]:
+        """List runs, newest first; the newest thousand, if there are more."""
+        return self._call(wire.RunList, "GET", "/runs", params={"limit": 1_000}).runs
+
+    def run(self, run: str) -> wire.Run:
+        """Return a run."""
+        return self._call(wire.Run, "GET", f"/runs/{run}")
+
+    def patch_run(self, run: str, patch: wire.RunPatch) -> wire.Run:
+        """Pause, resume or finish a run, set its budget or its result."""
+        return self._call(wire.Run, "PATCH", f"/runs/{run}", patch)
+
+    def upload(self, frames: Mapping[str, bytes]) -> None:
+        """Upload frames, PNGs by their SHA-256, but none that the server has."""
+        wanted = [frame for frame in frames if frame not in self._uploaded]
+        for start in range(0, len(wanted), _HASHES_AT_ONCE):
+            hashes = wire.FrameHashes(hashes=wanted[start : start + _HASHES_AT_ONCE])
+            missing = self._call(wire.FrameHashes, "POST", "/frames/missing", hashes).hashes
+            for batch in _batches(missing, frames):
+                self._send("PUT", "/frames", wire.FrameUpload(frames=batch))
+            self._uploaded.update(hashes.hashes)
+
+    def ask(self, run: str, queries: Sequence[wire.Ask]) -> list[wire.Query]:
+        """Ask; a query asked before comes back with its answer if it has one."""
+        return self._call(wire.Asked, "POST", f"/runs/{run}/queries", wire.AskList(queries=list(queries))).queries
+
+    def query(self, query: int, wait: float = 0) -> wire.Query:
+        """Return a query, waiting up to `wait` seconds (at most 60) for its answer."""
+        return self._call(wire.Query, "GET", f"/queries/{query}", params={"wait": wait})
+
+    def answers(self, run: str, after: int, wait: float = 0) -> wire.AnswerPage:
+        """Return the answers given after a cursor, waiting up to `wait` seconds for the first."""
+        return self._call(wire.AnswerPage, "GET", f"/runs/{run}/answers", params={"after": after, "wait": wait})
+
+    def use(self, query: int) -> wire.Query:
+        """Say that the learner uses the answer now; from then on it cannot be retracted."""
+        return self._call(wire.Query, "POST", f"/queries/{query}/use")
+
+    def play(self, query: int) -> AbstractContextManager[ClientConnection]:
+        """Open the play socket of a demonstration.
+
+        Raises:
+            OSError, WebSocketException: there is no server, or it refuses.
+        """
+        server = str(self._http.base_url).removeprefix("http")
+        return connect(
+            f"ws{server}queries/{query}/play",
+            additional_headers={"Authorization": self._http.headers["Authorization"]},
+            open_timeout=_CONNECT_SECONDS,
+            max_size=_LARGEST_MESSAGE,
+        )
+
+    def report(self, run: str, episodes: Sequence[wire.EpisodeResult]) -> wire.Run:
+        """Report what episodes brought."""
+        return self._call(wire.Run, "POST", f"/runs/{run}/episodes", wire.EpisodeList(episodes=list(episodes)))
+
+    def add_gold(self, run: str, gold: wire.GoldPost) -> list[wire.Gold]:
+        """Make queries gold; returns all gold queries of the run, newest first."""
+        return self._call(wire.GoldList, "POST", f"/runs/{run}/gold", gold).gold
+
+    def costs(self, run: str) -> wire.Costs:
+        """Return the sums of the ledger."""
+        return self._call(wire.Costs, "GET", f"/runs/{run}/costs")
+
+    def curves(self, run: str) -> wire.Curves:
+        """Return success and cost by episode."""
+        return self._call(wire.Curves, "GET", f"/runs/{run}/curves")
+
+    # --- the annotator's calls
+
+    def lease(self, lease: wire.Lease) -> wire.Assignment | None:
+        """Lease the next query, or None if there was none within `lease.wait` seconds."""
+        response = self._send("POST", "/assignments", lease)
+        return None if response.status_code == 204 else _read(wire.Assignment, response)
+
+    def assignments(self) -> list[wire.Assignment]:
+        """Return the live assignments of this user, oldest first."""
+        return self._call(wire.AssignmentList, "GET", "/assignments").assignments
+
+    def answer(
+        self, assignment: wire.Assignment, answer: wire.Answer, following: wire.Lease | None = None
+    ) -> wire.Receipt:
+        """Answer; the receipt carries the next assignment if `following` asks for one."""
+        post = wire.AnswerPost(token=assignment.token, answer=answer, next=following)
+        return self._call(wire.Receipt, "POST", f"/assignments/{assignment.id}/answer", post)
+
+    def release(self, assignment: wire.Assignment, reason: str = "", skip: bool = False) -> None:
+        """Give a query back, unanswered."""
+        self._send(
+            "POST",
+            f"/assignments/{assignment.id}/release",
+            wire.Release(token=assignment.token, reason=reason, skip=skip),
+        )
+
+    # --- how calls are made
+
+    def _call(self, reply: type[M], method: str, path: str, body: BaseModel | None = None, params: Any = None) -> M:
+        return _read(reply, self._send(method, path, body, params))
+
+    def _send(self, method: str, path: str, body: BaseModel | None = None, params: Any = None) -> httpx2.Response:
+        content = body.model_dump_json(exclude_unset=True) if body is not None else None
+        headers = {"Content-Type": "application/json"} if body is not None else {}
+        give_up_at, pause, trouble = time.monotonic() + self._patience, _FIRST_PAUSE, ""
+        while True:
+            try:
+                response = self._http.request(method, path, content=content, headers=headers, params=params)
+                if response.status_code not in _TRANSIENT:
+                    break
+                trouble = f"status {response.status_code}"
+            except httpx2.TransportError as error:
+                trouble = repr(error)
+            if time.monotonic() + pause > give_up_at:
+                raise Unreachable(f"the server at {self._http.base_url} does not answer ({trouble}): is it running?")
+            time.sleep(pause)
+            pause = min(2 * pause, _LONGEST_PAUSE)
+        if response.is_error:
+            raise Refused(_problem(response))
+        return response
+
+
+def _batches(hashes: Sequence[str], frames: Mapping[str, bytes]) -> Iterator[list[wire.Frame]]:
+    """Yield frames as they are uploaded, few enough at a time for a request body."""
+    batch, size = list[wire.Frame](), 0
+    for one in hashes:
+        png = base64.b64encode(frames[one]).decode()
+        if batch and (size + len(png) > _UPLOAD_BYTES or len(batch) == _HASHES_AT_ONCE):
+            yield batch
+            batch, size = [], 0
+        batch.append(wire.Frame(hash=one, png=png))
+        size += len(png)
+    if batch:
+        yield batch
+
+
+def _read(reply: type[M], response: httpx2.Response) -> M:
+    return reply.model_validate_json(response.content)
+
+
+def _problem(response: httpx2.Response) -> wire.Problem:
+    try:
+        return wire.Problem.model_validate_json(response.content)
+    except ValueError:
+        return wire.Problem(
+            type="/problems/unknown",
+            title=f"Status {response.status_code}",
+            status=response.status_code,
+            detail=response.text[:200] or "no explanation; is this a Waypost server?",
+        )

@@ -1,0 +1,41 @@
+"""What all messages are made of."""
+
+from typing import Annotated, Literal, get_args
+
+from pydantic import BaseModel, ConfigDict, Field
+
+__all__ = [
+    "KINDS",
+    "FrameHash",
+    "GoldRate",
+    "Kind",
+    "Message",
+    "Name",
+    "Note",
+    "QueryState",
+    "Role",
+    "RunState",
+    "Units",
+    "Verdict",
+]
+
+Kind = Literal["hier_demo", "inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
+Verdict = Literal["pass", "fail"]
+RunState = Literal["running", "paused", "finished"]
+QueryState = Literal["open", "leased", "answered", "cancelled"]
+Role = Literal["admin", "learner", "annotator", "viewer"]
+
+Name = Annotated[str, Field(min_length=1, max_length=100, pattern=r"^[^\x00-\x1f\x7f]+$")]
+Note = Annotated[str, Field(max_length=500, pattern=r"^[^\x00]*$")]
+GoldRate = Annotated[
+    float, Field(ge=0, le=0.5, allow_inf_nan=False, description="Share of an annotator's queries that are gold.")
+]
+Units = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
+FrameHash = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$", description="The SHA-256 of a PNG, in hexadecimal.")]
+
+
+class Message(BaseModel):
+    """What all messages share: unknown fields and lax conversions (`"3"` for 3) are refused."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, json_schema_serialization_defaults_required=True)

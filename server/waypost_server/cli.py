@@ -1,0 +1,232 @@
+"""The server's commands: serve, and the people and programs that may call it."""
+
+import json
+import socket
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from datetime import UTC, datetime
+from typing import Annotated, NoReturn, get_args
+
+import typer
+from pydantic import ValidationError
+
+from waypost import wire
+from waypost_server import errors, serving
+from waypost_server.app import create_app
+from waypost_server.db.engine import BadDatabase, Database
+from waypost_server.db.schema import NewerStore
+from waypost_server.gold.practice import BadPractice
+from waypost_server.http import spa
+from waypost_server.settings import Settings
+from waypost_server.users import accounts
+from waypost_server.users import service as users
+
+app = typer.Typer(no_args_is_help=True, help="Waypost's server and its users.")
+user_app = typer.Typer(no_args_is_help=True, help="The people and programs that may call the server.")
+token_app = typer.Typer(no_args_is_help=True, help="API tokens.")
+app.add_typer(user_app, name="user")
+app.add_typer(token_app, name="token")
+
+DatabaseOption = Annotated[
+    str, typer.Option("--database", envvar="WAYPOST_DATABASE", help="sqlite:///FILE or postgresql://USER@HOST/NAME.")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as one line of JSON.")]
+
+DEFAULT_DATABASE = "sqlite:///waypost.db"
+
+
+def refuse(message: str) -> NoReturn:
+    """Say what was wrong and end with the status of wrong usage."""
+    typer.echo(message, err=True)
+    raise typer.Exit(2)
+
+
+@contextmanager
+def opened(url: str) -> Iterator[Database]:
+    """Open a store for one command; what is wrong with it ends the command with one sentence."""
+    try:
+        db = Database(url)
+    except (BadDatabase, NewerStore) as error:
+        refuse(str(error))
+    try:
+        yield db
+    except errors.Refusal as refusal:
+        refuse(refusal.detail)
+    finally:
+        db.close()
+
+
+def administrator_url(db: Database, base: str, seconds: float) -> str:
+    """Return a one-time link that logs an administrator in; the user `admin` is created if there is none."""
+    name = db.write_now(users.an_administrator).name
+    return login_url(db, base, name, "admin", seconds)
+
+
+def login_url(db: Database, base: str, name: str, role: wire.Role, seconds: float) -> str:
+    """Return a one-time link that logs the user of a name in; the user is created if there is none."""
+    user = db.write_now(lambda tx: users.ensure_user(tx, name, role))
+    link = db.write_now(lambda tx: users.create_login(tx, user.id, seconds))
+    return f"{base.rstrip('/')}/login#{link.code}"
+
+
+def serve_app(settings: Settings, host: str, port: int) -> None:
+    """Serve until told to stop; prints a link that logs an administrator in.
+
+    Raises:
+        CannotServe, BadDatabase, NewerStore: with one sentence for the user.
+    """
+    with closing(serving.bind(host, port)) as bound:
+        _serve(settings, host, bound)
+
+
+def _serve(settings: Settings, host: str, bound: socket.socket) -> None:
+    named = () if host in {"0.0.0.0", "::"} else (host,)  # noqa: S104 - compared, not bound
+    chosen = settings.model_copy(update={"hosts": (*settings.hosts, *named)})
+    db = Database(chosen.database)
+    try:
+        link = administrator_url(db, serving.url_of(bound), chosen.link_seconds)
+    finally:
+        db.close()
+    typer.echo(f"Waypost serves {db.url.render_as_string()} at {serving.url_of(bound)}")
+    typer.echo(f"Log in once, within {chosen.link_seconds / 60:.0f} minutes: {link}")
+    if chosen.page is None and spa.find() is None:
+        typer.echo("The page is not built; `make web` builds it.")
+    serving.foreground(create_app(chosen), bound)
+
+
+@app.command()
+def serve(
+    host: Annotated[str, typer.Option(help="The address to listen on.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(min=0, max=65_535, help="The port; 0 takes a free one.")] = 8000,
+    database: DatabaseOption = DEFAULT_DATABASE,
+    lease: Annotated[float | None, typer.Option(help="Seconds an assignment lives without a renewal.")] = None,
+) -> None:
+    """Serve the API and the page; prints a one-time link that logs an administrator in."""
+    given = {"database": database} | ({} if lease is None else {"lease_seconds": lease})
+    try:
+        settings = Settings.model_validate(Settings().model_dump() | given)
+        serve_app(settings, host, port)
+    except ValidationError as error:
+        first = error.errors()[0]
+        refuse(f"The setting {'.'.join(map(str, first['loc']))} is not valid: {first['msg']}.")
+    except (serving.CannotServe, BadDatabase, NewerStore, BadPractice) as error:
+        refuse(str(error))
+
+
+def _check_role(role: str) -> None:
+    if role not in get_args(wire.Role):
+        refuse(f"{role!r} is no role; choose one of {', '.join(get_args(wire.Role))}.")
+
+
+@user_app.command("add")
+def add_user(
+    name: str,
+    role: Annotated[str, typer.Option(help="admin, learner, annotator or viewer.")] = "annotator",
+    database: DatabaseOption = DEFAULT_DATABASE,
+    as_json: JsonOption = False,
+) -> None:
+    """Create a user."""
+    _check_role(role)
+    try:
+        wanted = wire.UserCreate.model_validate({"name": name, "role": role})
+    except ValidationError as error:
+        refuse(f"{name!r} cannot be a user's name: {error.errors()[0]['msg']}.")
+    with opened(database) as db:
+        user = db.write_now(lambda tx: users.create_user(tx, wanted.name, wanted.role))
+    typer.echo(user.model_dump_json() if as_json else f"User {user.id}: {user.name} ({user.role})")
+
+
+@user_app.command("list")
+def list_users(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
+    """List all users."""
+    with opened(database) as db:
+        found = db.read_now(users.everyone)
+    if as_json:
+        typer.echo(found.model_dump_json())
+        return
+    for user in found.users:
+        away = "" if user.deactivated_at is None else "  (deactivated)"
+        typer.echo(f"{user.id:>6}  {user.role:<10} {user.name}{away}")
+
+
+@user_app.command("role")
+def set_role(name: str, role: str, database: DatabaseOption = DEFAULT_DATABASE) -> None:
+    """Give a user another role."""
+    _check_role(role)
+    _change(database, name, wire.UserPatch.model_validate({"role": role}))
+
+
+@user_app.command("deactivate")
+def deactivate_user(name: str, database: DatabaseOption = DEFAULT_DATABASE) -> None:
+    """Sign a user out for good: sessions, tokens and links end, leases go back; their answers stay."""
+    _change(database, name, wire.UserPatch(active=False))
+
+
+@user_app.command("reactivate")
+def reactivate_user(name: str, database: DatabaseOption = DEFAULT_DATABASE) -> None:
+    """Let a user in again; they need a new link or token."""
+    _change(database, name, wire.UserPatch(active=True))
+
+
+def _change(database: str, name: str, wanted: wire.UserPatch) -> None:
+    with opened(database) as db:
+        user = db.read_now(lambda tx: users.named(tx, name))
+        db.write_now(lambda tx: accounts.change(tx, user.id, wanted))
+
+
+@token_app.command("create")
+def create_token(
+    user: str,
+    label: Annotated[str, typer.Option(help="What it is for.")] = "",
+    database: DatabaseOption = DEFAULT_DATABASE,
+    as_json: JsonOption = False,
+) -> None:
+    """Create an API token for the user of a name; it is shown this once."""
+    with opened(database) as db:
+        owner = db.read_now(lambda tx: users.named(tx, user))
+        token = db.write_now(lambda tx: users.create_token(tx, owner.id, label))
+    typer.echo(token.model_dump_json() if as_json else token.token)
+
+
+@token_app.command("list")
+def list_tokens(user: str, database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
+    """List the API tokens of the user of a name, without their secrets."""
+    with opened(database) as db:
+        owner = db.read_now(lambda tx: users.named(tx, user))
+        found = db.read_now(lambda tx: accounts.tokens(tx, owner.id))
+    if as_json:
+        typer.echo(found.model_dump_json())
+        return
+    for token in found.tokens:
+        typer.echo(f"{token.id:>6}  made {_day(token.created_at)}  last used {_day(token.last_used_at)}  {token.label}")
+
+
+def _day(seconds: float | None) -> str:
+    return "never     " if seconds is None else f"{datetime.fromtimestamp(seconds, UTC):%Y-%m-%d}"
+
+
+@token_app.command("revoke")
+def revoke_token(token: int, database: DatabaseOption = DEFAULT_DATABASE) -> None:
+    """Revoke an API token by its number."""
+    with opened(database) as db:
+        db.write_now(lambda tx: accounts.revoke_token(tx, token))
+
+
+@app.command("login-link")
+def login_link(
+    user: str,
+    base: Annotated[str, typer.Option(help="The server's address.")] = "http://127.0.0.1:8000",
+    hours: Annotated[float | None, typer.Option(min=0.1, max=168, help="How long it is good.")] = None,
+    database: DatabaseOption = DEFAULT_DATABASE,
+    as_json: JsonOption = False,
+) -> None:
+    """Print a one-time link that logs the user of a name in."""
+    with opened(database) as db:
+        owner = db.read_now(lambda tx: users.named(tx, user))
+        seconds = Settings().link_seconds if hours is None else hours * 3_600
+        url = login_url(db, base, owner.name, owner.role, seconds)
+    typer.echo(json.dumps({"url": url}) if as_json else url)
+
+
+if __name__ == "__main__":
+    app()

@@ -1,0 +1,343 @@
+"""The tables: every state the store can be in, as types and constraints.
+
+Money is whole micro-units, so that sums are exact.
+"""
+
+from sqlalchemy import (
+    BigInteger,
+    Boolean,
+    CheckConstraint,
+    Column,
+    Float,
+    ForeignKey,
+    Index,
+    Integer,
+    LargeBinary,
+    MetaData,
+    Table,
+    Text,
+    UniqueConstraint,
+    literal_column,
+    text,
+)
+
+from waypost.wire import KINDS
+
+metadata = MetaData(
+    naming_convention={
+        "pk": "pk_%(table_name)s",
+        "fk": "fk_%(table_name)s_%(column_0_name)s",
+        "uq": "uq_%(table_name)s_%(column_0_N_name)s",
+        "ix": "ix_%(table_name)s_%(column_0_N_name)s",
+        "ck": "ck_%(table_name)s_%(constraint_name)s",
+    }
+)
+
+RowId = BigInteger().with_variant(Integer, "sqlite")
+
+
+def one_of(column: str, *values: str) -> CheckConstraint:
+    """Return the constraint that a column holds one of these words."""
+    words = ", ".join(f"'{value}'" for value in values)
+    return CheckConstraint(f"{column} IN ({words})", name=column)
+
+
+users = Table(
+    "users",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("name", Text, nullable=False, unique=True),
+    Column("role", Text, nullable=False),
+    Column("created_at", Float, nullable=False),
+    Column("deactivated_at", Float),
+    one_of("role", "admin", "learner", "annotator", "viewer"),
+    sqlite_autoincrement=True,
+)
+
+# What proves who calls; only a SHA-256 of each secret is kept. A login code is revoked by its first use.
+credentials = Table(
+    "credentials",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    Column("kind", Text, nullable=False),
+    Column("hash", Text, nullable=False, unique=True),
+    Column("label", Text, nullable=False),
+    Column("created_at", Float, nullable=False),
+    Column("expires_at", Float),
+    Column("revoked_at", Float),
+    Column("last_used_at", Float),  # to the minute
+    one_of("kind", "api", "session", "login"),
+    sqlite_autoincrement=True,
+)
+
+runs = Table(
+    "runs",
+    metadata,
+    Column("number", RowId, primary_key=True),
+    Column("id", Text, nullable=False, unique=True),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    Column("name", Text, nullable=False),
+    Column("algorithm", Text, nullable=False),
+    Column("seed", BigInteger, nullable=False),
+    Column("state", Text, nullable=False),
+    Column("vocabulary", Text, nullable=False),
+    Column("config", Text, nullable=False),
+    Column("prices", Text, nullable=False),
+    Column("budget", BigInteger),
+    Column("spent", BigInteger, nullable=False),
+    Column("reserved", BigInteger, nullable=False),
+    Column("episodes", Integer),
+    Column("priority", Integer, nullable=False, server_default=text("0")),
+    Column("result", Text),
+    Column("created_at", Float, nullable=False),
+    Column("finished_at", Float),
+    # The share of an annotator's queries in this run that are gold.
+    Column("gold_rate", Float, nullable=False, server_default=text("0")),
+    # Set in the shadow of another run, where gold queries are answered: nothing in it is ever that run's.
+    Column("gold_of", Text, ForeignKey("runs.id")),
+    one_of("state", "running", "paused", "finished"),
+    CheckConstraint("gold_rate >= 0 AND gold_rate <= 0.5", name="gold_rate"),
+    CheckConstraint("spent >= 0 AND reserved >= 0", name="money_not_negative"),
+    CheckConstraint("budget IS NULL OR spent + reserved <= budget", name="budget_not_overspent"),
+    CheckConstraint("(state = 'finished') = (finished_at IS NOT NULL)", name="finished_at"),
+    Index("uq_runs_gold_of", "gold_of", unique=True),
+    sqlite_autoincrement=True,
+)
+
+queries = Table(
+    "queries",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), nullable=False),
+    Column("episode", Integer, nullable=False),
+    Column("ordinal", Integer, nullable=False),
+    Column("kind", Text, nullable=False),
+    Column("state", Text, nullable=False),
+    Column("priority", Integer, nullable=False),
+    # The run's, kept here too: the next query is found by one index, without looking at any run.
+    Column("run_priority", Integer, nullable=False, server_default=text("0")),
+    Column("ask", Text, nullable=False),
+    Column("digest", Text, nullable=False),
+    Column("reserve", BigInteger, nullable=False),
+    Column("revision", Integer, nullable=False),
+    Column("answer_id", RowId, ForeignKey("answers.id", use_alter=True), unique=True),
+    Column("used", Boolean, nullable=False),
+    Column("created_at", Float, nullable=False),
+    # Who answered its episode last when it was asked; kept here, or handing out would read all answers of an episode.
+    Column("follows_user_id", RowId, ForeignKey("users.id")),
+    one_of("kind", *KINDS),
+    # open -> leased -> answered | cancelled; leased -> open: given back or expired; answered -> leased: retracted.
+    one_of("state", "open", "leased", "answered", "cancelled"),
+    CheckConstraint("(state = 'answered') = (answer_id IS NOT NULL)", name="answered"),
+    CheckConstraint("NOT used OR state = 'answered'", name="used_is_answered"),
+    CheckConstraint("reserve >= 0 AND revision >= 0", name="not_negative"),
+    UniqueConstraint("run_id", "episode", "ordinal"),
+    sqlite_autoincrement=True,
+)
+Index(
+    "ix_queries_next",
+    queries.c.run_priority.desc(),
+    queries.c.priority.desc(),
+    queries.c.id,
+    sqlite_where=text("state = 'open'"),
+    postgresql_where=text("state = 'open'"),
+)
+Index("ix_queries_run_state", queries.c.run_id, queries.c.state, queries.c.episode)
+Index("ix_queries_run", queries.c.run_id, queries.c.id)
+
+assignments = Table(
+    "assignments",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("query_id", RowId, ForeignKey("queries.id"), nullable=False, index=True),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    # Fences one lease; worthless without its owner's login, so it is kept as it is.
+    Column("token", Text, nullable=False),
+    Column("state", Text, nullable=False),
+    Column("deferring", Boolean, nullable=False),
+    # The assignment whose answer's reply handed this one out.
+    Column("after_id", RowId, ForeignKey("assignments.id"), index=True),
+    Column("reason", Text),
+    Column("tab", Text),  # the page that asked for it, if it said so
+    Column("leased_at", Float, nullable=False),
+    Column("expires_at", Float, nullable=False),
+    Column("ended_at", Float),
+    one_of("state", "live", "answered", "skipped", "released", "expired", "cancelled"),
+    CheckConstraint("(state = 'live') = (ended_at IS NULL)", name="ended_at"),
+    sqlite_autoincrement=True,
+)
+_live = text("state = 'live'")
+Index("uq_assignments_live", assignments.c.query_id, unique=True, sqlite_where=_live, postgresql_where=_live)
+Index("ix_assignments_expiry", assignments.c.expires_at, sqlite_where=_live, postgresql_where=_live)
+Index("ix_assignments_user_live", assignments.c.user_id, sqlite_where=_live, postgresql_where=_live)
+
+# Spelled out rather than bound, so that the databases see that the partial indexes above serve these conditions.
+IS_OPEN = queries.c.state == literal_column("'open'")
+IS_LIVE = assignments.c.state == literal_column("'live'")
+
+# Immutable (a trigger holds it). What counts is what queries.answer_id names; a late answer has no revision.
+answers = Table(
+    "answers",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), nullable=False),
+    Column("query_id", RowId, ForeignKey("queries.id"), nullable=False),
+    Column("assignment_id", RowId, ForeignKey("assignments.id"), nullable=False, unique=True),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    Column("content", Text, nullable=False),
+    Column("digest", Text, nullable=False),
+    Column("idempotency_key", Text),
+    Column("revision", Integer),
+    Column("units", BigInteger, nullable=False),
+    Column("seconds", Float, nullable=False),
+    Column("active_seconds", Float, nullable=False),
+    Column("created_at", Float, nullable=False),
+    UniqueConstraint("query_id", "revision"),
+    UniqueConstraint("user_id", "idempotency_key"),
+    CheckConstraint("revision IS NOT NULL OR units = 0", name="late_is_free"),
+    Index("ix_answers_run", "run_id", "id"),
+    Index("ix_answers_user", "user_id", "id"),
+    sqlite_autoincrement=True,
+)
+
+# Append-only (a trigger holds it): every cost there is, and every refund.
+ledger = Table(
+    "ledger",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), nullable=False),
+    Column("query_id", RowId, ForeignKey("queries.id"), nullable=False),
+    Column("answer_id", RowId, ForeignKey("answers.id"), nullable=False),
+    Column("entry", Text, nullable=False),
+    Column("kind", Text, nullable=False),
+    Column("episode", Integer, nullable=False),
+    Column("units", BigInteger, nullable=False),
+    Column("lo_units", BigInteger, nullable=False),
+    Column("seconds", Float, nullable=False),
+    Column("active_seconds", Float, nullable=False),
+    Column("created_at", Float, nullable=False),
+    one_of("entry", "charge", "refund"),
+    one_of("kind", *KINDS),
+    UniqueConstraint("answer_id", "entry"),
+    CheckConstraint(
+        "(entry = 'charge' AND lo_units >= 0 AND units >= lo_units) OR "
+        "(entry = 'refund' AND lo_units <= 0 AND units <= lo_units)",
+        name="sign",
+    ),
+    Index("ix_ledger_run", "run_id", "episode", "kind"),
+    Index("ix_ledger_run_id", "run_id", "id"),
+    sqlite_autoincrement=True,
+)
+
+skips = Table(
+    "skips",
+    metadata,
+    Column("query_id", RowId, ForeignKey("queries.id"), primary_key=True),
+    Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
+)
+
+# Pages that have gone: what is still under way to them is leased to nobody.
+departures = Table(
+    "departures",
+    metadata,
+    Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
+    Column("tab", Text, primary_key=True),
+    Column("at", Float, nullable=False),
+)
+
+# Who has asked for work of late, so that a deferring bot can leave it to them. No run or kinds: all.
+presence = Table(
+    "presence",
+    metadata,
+    Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id")),
+    Column("kinds", Text),
+    Column("asked_at", Float, nullable=False),
+)
+
+# How long an annotator has been active since the last answer. A person's time counts once, whatever they hold.
+activity = Table(
+    "activity",
+    metadata,
+    Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
+    Column("active_seconds", Float, nullable=False),
+    Column("signalled_at", Float, nullable=False),
+    CheckConstraint("active_seconds >= 0", name="not_negative"),
+)
+
+# Pictures of states, by the SHA-256 of the file; never changed, and kept for as long as the store.
+frames = Table(
+    "frames",
+    metadata,
+    Column("hash", Text, primary_key=True),
+    Column("png", LargeBinary, nullable=False),
+    Column("created_at", Float, nullable=False),
+)
+
+episodes = Table(
+    "episodes",
+    metadata,
+    Column("run_id", Text, ForeignKey("runs.id"), primary_key=True),
+    Column("episode", Integer, primary_key=True),
+    Column("test_success", Boolean),
+    Column("result", Text, nullable=False),
+    Column("created_at", Float, nullable=False),
+)
+
+events = Table(
+    "events",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), nullable=False),
+    Column("event", Text, nullable=False),
+    Column("data", Text, nullable=False),
+    Column("created_at", Float, nullable=False),
+    one_of("event", "asked", "answered", "retracted", "used", "cancelled", "episode", "run"),
+    Index("ix_events_run", "run_id", "id"),
+    sqlite_autoincrement=True,
+)
+
+# Queries of a run whose answers are known.
+gold = Table(
+    "gold",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), nullable=False),
+    Column("kind", Text, nullable=False),
+    Column("ask", Text, nullable=False),
+    Column("accepted", Text, nullable=False),
+    Column("digest", Text, nullable=False),
+    # The query it was marked from, and who answered that: it is never put to them.
+    Column("query_id", RowId, ForeignKey("queries.id")),
+    Column("author_id", RowId, ForeignKey("users.id")),
+    Column("created_at", Float, nullable=False),
+    Column("retired_at", Float),
+    one_of("kind", *KINDS),
+    UniqueConstraint("run_id", "digest"),
+    sqlite_autoincrement=True,
+)
+
+# One gold query put to one annotator: a query in the run's shadow, and how many of its labels were right.
+probes = Table(
+    "probes",
+    metadata,
+    Column("query_id", RowId, ForeignKey("queries.id"), primary_key=True),
+    Column("gold_id", RowId, ForeignKey("gold.id"), nullable=False),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    Column("n_labels", Integer),
+    Column("n_right", Integer),
+    CheckConstraint("(n_labels IS NULL) = (n_right IS NULL)", name="scored"),
+    CheckConstraint("n_right >= 0 AND n_right <= n_labels", name="right_of_labels"),
+    Index("ix_probes_user", "user_id", "gold_id"),
+    Index("ix_probes_gold", "gold_id"),
+)
+
+# How many queries of a run an annotator has been handed since it has a gold rate: where in the stream they are.
+gold_streams = Table(
+    "gold_streams",
+    metadata,
+    Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), primary_key=True),
+    Column("handed", Integer, nullable=False),
+)

@@ -1,0 +1,170 @@
+"""Writers: they run units of work and acknowledge each only after the commit that made it durable."""
+
+import random
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from queue import Empty, SimpleQueue
+from typing import Any, Protocol, TypeVar
+
+from sqlalchemy import Connection, Engine
+from sqlalchemy.exc import DBAPIError, OperationalError
+
+from waypost_server import errors
+
+T = TypeVar("T")
+Topics = set[str]
+Work = Callable[[Connection, Topics], T]
+
+LARGEST_BATCH = 128
+ATTEMPTS = 8
+RETRIED = {"40001", "40P01"}  # serialization failure, deadlock
+
+
+class Writer(Protocol):
+    """Runs units of work, each all or nothing."""
+
+    def submit(self, work: Work[T]) -> Future[T]:
+        """Queue a unit of work; the future resolves after its commit."""
+        ...
+
+    def close(self) -> None:
+        """Finish what was submitted, then stop."""
+        ...
+
+
+@dataclass(frozen=True)
+class Job:
+    """A unit of work and the future of whoever waits for it."""
+
+    work: Work[Any]
+    future: Future[Any]
+
+
+class GroupCommit:
+    """One thread and one connection: what waits is run together, each in a savepoint, and committed once.
+
+    With `synchronous=FULL` a commit costs a disk sync. Sharing it among all who wait keeps many annotators as fast as
+    one, and an answer is still acknowledged only after the sync.
+    """
+
+    def __init__(self, engine: Engine, committed: Callable[[Topics], None]) -> None:
+        self._engine = engine
+        self._committed = committed
+        self._jobs: SimpleQueue[Job | None] = SimpleQueue()
+        self._thread = threading.Thread(target=self._loop, name="waypost-write", daemon=True)
+        self._thread.start()
+
+    def submit(self, work: Work[T]) -> Future[T]:
+        """Queue a unit of work; the future resolves after its commit."""
+        future: Future[T] = Future()
+        self._jobs.put(Job(work, future))
+        return future
+
+    def close(self) -> None:
+        """Finish what was submitted, then stop."""
+        self._jobs.put(None)
+        self._thread.join()
+
+    def _loop(self) -> None:
+        while (first := self._jobs.get()) is not None:
+            batch, last = [first], False
+            while len(batch) < LARGEST_BATCH and not last:
+                try:
+                    job = self._jobs.get_nowait()
+                except Empty:
+                    break
+                if job is None:
+                    last = True
+                else:
+                    batch.append(job)
+            # From here on a waiter that gives up can no longer cancel: the outcome always has a place to go.
+            if begun := [job for job in batch if job.future.set_running_or_notify_cancel()]:
+                self._run(begun)
+            if last:
+                return
+
+    def _run(self, batch: list[Job]) -> None:
+        """Commit a batch; if the store itself fails, each job of it gets a transaction of its own."""
+        try:
+            self._commit(batch)
+        except DBAPIError as error:
+            if len(batch) > 1:
+                for job in batch:
+                    self._run([job])
+            else:
+                batch[0].future.set_exception(_storage_failed(error))
+        except Exception as error:
+            for job in batch:
+                job.future.set_exception(error)
+
+    def _commit(self, batch: list[Job]) -> None:
+        topics: Topics = set()
+        outcomes: list[tuple[Any, Exception | None]] = []
+        with self._engine.begin() as conn:
+            for job in batch:
+                outcomes.append(_in_savepoint(conn, job.work, topics))
+        # Only here is the batch on disk.
+        if topics:
+            self._committed(topics)
+        for job, (result, error) in zip(batch, outcomes, strict=True):
+            if error is None:
+                job.future.set_result(result)
+            else:
+                job.future.set_exception(error)
+
+
+def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:
+    """Run one unit of work; what it refuses leaves no trace, but a failing store fails the whole batch."""
+    woken: Topics = set()
+    savepoint = conn.begin_nested()
+    try:
+        result = work(conn, woken)
+        savepoint.commit()
+    except OperationalError:
+        raise
+    except Exception as error:
+        savepoint.rollback()
+        return None, error
+    topics |= woken
+    return result, None
+
+
+class CommittingThreads:
+    """A few threads; each unit of work is a transaction of its own, tried again if the database asks for that."""
+
+    def __init__(self, engine: Engine, committed: Callable[[Topics], None], threads: int) -> None:
+        self._engine = engine
+        self._committed = committed
+        self._pool = ThreadPoolExecutor(threads, "waypost-write")
+
+    def submit(self, work: Work[T]) -> Future[T]:
+        """Queue a unit of work; the future resolves after its commit."""
+        return self._pool.submit(self._run, work)
+
+    def close(self) -> None:
+        """Finish what was submitted, then stop."""
+        self._pool.shutdown()
+
+    def _run(self, work: Work[T]) -> T:
+        for attempt in range(ATTEMPTS):
+            topics: Topics = set()
+            try:
+                with self._engine.begin() as conn:
+                    result = work(conn, topics)
+            except OperationalError as error:
+                if getattr(error.orig, "sqlstate", None) not in RETRIED or attempt == ATTEMPTS - 1:
+                    raise _storage_failed(error) from error
+                time.sleep(random.uniform(0, 0.01 * 2**attempt))  # noqa: S311 - jitter
+                continue
+            if topics:
+                self._committed(topics)
+            return result
+        raise AssertionError("unreachable")
+
+
+def _storage_failed(error: DBAPIError) -> errors.StorageFailed:
+    cause = str(error.orig).strip().partition("\n")[0]
+    return errors.StorageFailed(f"Nothing was stored ({cause}); send the same again.", retry_after=1)

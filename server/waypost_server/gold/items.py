@@ -1,0 +1,170 @@
+"""Gold queries: those of a run whose answers are known, marked from its own or brought along.
+
+They are answered in the run's shadow, a row of `runs` of its own that nobody sees: whatever is kept by run, the
+ledger, answers, events, curves, can hold nothing of them.
+"""
+
+import secrets
+from dataclasses import dataclass
+from typing import Any
+
+from sqlalchemy import ColumnElement, Row, case, func, insert, select, update
+
+from waypost import wire
+from waypost_server import errors
+from waypost_server.db import canonical
+from waypost_server.db.engine import Tx
+from waypost_server.db.tables import answers, gold, probes, users
+from waypost_server.db.tables import queries as query_table
+from waypost_server.db.tables import runs as run_table
+from waypost_server.gold import scoring
+from waypost_server.queries import checks
+from waypost_server.queries import service as queries
+from waypost_server.runs import service as runs
+
+_COPIED = ("user_id", "name", "algorithm", "seed", "vocabulary", "prices")
+
+
+@dataclass(frozen=True)
+class Item:
+    """A query to be gold, and where it is from."""
+
+    ask: wire.Ask
+    known: wire.Known
+    query: int | None = None
+    author: int | None = None
+
+
+def agreement() -> ColumnElement[float | None]:
+    """Return the share of right labels among those of the probes a statement groups; null if there are none."""
+    n_labels = func.sum(probes.c.n_labels)
+    return case((n_labels > 0, func.sum(probes.c.n_right) * 1.0 / n_labels), else_=None)
+
+
+def add(tx: Tx, run: str, wanted: wire.GoldPost) -> wire.GoldList:
+    """Make queries gold; what is gold already stays, and what was retired comes back.
+
+    Raises:
+        NotFound, NotAnswered, Unprocessable: for a query that is not the run's, has no answer, or cannot be gold.
+    """
+    row = runs.lock(tx, run)
+    names = checks.Names.of(wire.Vocabulary.model_validate_json(row.vocabulary))
+    items = [_answered(tx, run, query) for query in wanted.answered]
+    for place, one in enumerate(wanted.known):
+        at: list[str | int] = ["body", "known", place]
+        checks.check_ask(one.ask, names, [*at, "ask"])
+        scoring.check(one.ask, one.known, names, [*at, "known"])
+        items.append(Item(one.ask, one.known))
+    _ensure_shadow(tx, row)
+    for item in items:
+        _store(tx, run, item)
+    return of_run(tx, run)
+
+
+def _answered(tx: Tx, run: str, query: int) -> Item:
+    found = tx.conn.execute(
+        select(query_table.c.run_id, query_table.c.ask, answers.c.content, answers.c.user_id)
+        .outerjoin(answers, answers.c.id == query_table.c.answer_id)
+        .where(query_table.c.id == query)
+    ).one_or_none()
+    if found is None or found.run_id != run:
+        raise errors.NotFound(f"The run has no query {query}.")
+    if found.content is None:
+        raise errors.NotAnswered(f"Query {query} has no answer that could be the right one.")
+    known = scoring.exactly(queries.ANSWER.validate_json(found.content))
+    return Item(queries.ASK.validate_json(found.ask), known, query, found.user_id)
+
+
+def _ensure_shadow(tx: Tx, row: Row[Any]) -> None:
+    if shadow_of(tx, row.id) is not None:
+        return
+    copied = {name: row._mapping[name] for name in _COPIED}
+    # Paused, so that the queue never offers what is in it by itself.
+    state = {"state": "finished", "finished_at": tx.now} if row.state == "finished" else {"state": "paused"}
+    tx.conn.execute(
+        insert(run_table).values(
+            id=secrets.token_hex(6),
+            gold_of=row.id,
+            config="{}",
+            spent=0,
+            reserved=0,
+            created_at=tx.now,
+            **copied,
+            **state,
+        )
+    )
+
+
+def shadow_of(tx: Tx, run: str) -> str | None:
+    """Return the id of a run's shadow, if it has ever had gold queries."""
+    return tx.conn.execute(select(run_table.c.id).where(run_table.c.gold_of == run)).scalar_one_or_none()
+
+
+def _store(tx: Tx, run: str, item: Item) -> None:
+    ask = canonical.text(item.ask.model_dump(mode="json"))
+    digest = canonical.digest(ask)
+    same = (gold.c.run_id == run, gold.c.digest == digest)
+    if tx.conn.execute(select(gold.c.id).where(*same)).one_or_none() is not None:
+        tx.conn.execute(update(gold).where(*same).values(retired_at=None))
+        return
+    row = {
+        "run_id": run,
+        "kind": item.ask.kind,
+        "ask": ask,
+        "accepted": item.known.model_dump_json(),
+        "digest": digest,
+        "query_id": item.query,
+        "author_id": item.author,
+        "created_at": tx.now,
+    }
+    tx.conn.execute(insert(gold).values(row))
+
+
+def of_run(tx: Tx, run: str) -> wire.GoldList:
+    """List a run's gold queries, newest first."""
+    runs.find(tx, run)
+    rows = tx.conn.execute(
+        select(
+            gold,
+            users.c.name.label("author"),
+            func.count(probes.c.n_labels).label("given"),
+            agreement().label("agreed"),
+        )
+        .outerjoin(users, users.c.id == gold.c.author_id)
+        .outerjoin(probes, probes.c.gold_id == gold.c.id)
+        .where(gold.c.run_id == run, gold.c.retired_at.is_(None))
+        .group_by(gold.c.id, users.c.name)
+        .order_by(gold.c.id.desc())
+    )
+    return wire.GoldList(gold=[_of_row(row) for row in rows])
+
+
+def _of_row(row: Row[Any]) -> wire.Gold:
+    ask = queries.ASK.validate_json(row.ask)
+    return wire.Gold(
+        id=row.id,
+        kind=ask.kind,
+        question=ask.question,
+        known=scoring.KNOWN.validate_json(row.accepted),
+        query=row.query_id,
+        author=row.author,
+        answers=row.given,
+        agreement=None if row.agreed is None else float(row.agreed),
+        created_at=row.created_at,
+    )
+
+
+def retire(tx: Tx, run: str, item: int) -> None:
+    """Put a gold query to nobody any more; what was answered to it stays.
+
+    Raises:
+        NotFound: if the run has no such gold query.
+    """
+    runs.find(tx, run)
+    retired = tx.conn.execute(
+        update(gold)
+        .where(gold.c.id == item, gold.c.run_id == run, gold.c.retired_at.is_(None))
+        .values(retired_at=tx.now)
+    )
+    if not retired.rowcount:
+        raise errors.NotFound(f"The run has no gold query {item}.")

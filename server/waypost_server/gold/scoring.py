@@ -1,0 +1,99 @@
+"""What is right: known answers checked, and answers marked against them, label by label.
+
+A label is a verdict, a subgoal, an action, or that a segment is done; of several right choices each counts as right.
+"""
+
+from collections.abc import Sequence
+from itertools import chain
+from typing import assert_never, cast
+
+from pydantic import TypeAdapter
+
+from waypost import wire
+from waypost_server.errors import Location, Unprocessable
+from waypost_server.queries import checks
+
+KNOWN: TypeAdapter[wire.Known] = TypeAdapter(wire.Known)
+
+DONE, NOT_DONE = "(done)", "(not done)"
+
+
+def exactly(answer: wire.Answer) -> wire.Known:
+    """Return what an answer says as the only thing that is right.
+
+    Raises:
+        Unprocessable: a demonstration; many others would be as good, and nothing here can carry them out.
+    """
+    match answer:
+        case wire.InspectAnswer():
+            return wire.KnownVerdict(kind=answer.kind, verdict=answer.verdict)
+        case wire.LabelHiAnswer():
+            return wire.KnownSubgoals(kind="label_hi", subgoals=[[name] for name in answer.subgoals])
+        case wire.LabelLoAnswer():
+            end = _end(answer)
+            names = cast(list[str], answer.actions[:end])  # none is null before the end
+            return wire.KnownSegment(kind="label_lo", actions=[[name] for name in names], end=end)
+        case wire.LabelFullAnswer():
+            return wire.KnownActions(kind="label_full", actions=[[name] for name in answer.actions])
+        case wire.HierDemoAnswer():
+            raise Unprocessable(["body", "answered"], "a demonstration cannot be gold; there are many as good")
+        case _:
+            assert_never(answer)
+
+
+def check(ask: wire.Ask, known: wire.Known, names: checks.Names, at: Location) -> None:
+    """Refuse what cannot be right for a query: another kind, another length, names the run does not have."""
+    if known.kind != ask.kind:
+        raise Unprocessable([*at, "kind"], f"is {known.kind}; the query is {ask.kind}")
+    match known, ask:
+        case wire.KnownSubgoals(), wire.AskLabelHi():
+            checks.check_length(known.subgoals, len(ask.segments), [*at, "subgoals"], "segments")
+            for name in chain.from_iterable(known.subgoals):
+                names.check_subgoal(name, [*at, "subgoals"])
+        case wire.KnownSegment(), wire.AskLabelLo():
+            n_actions = len(ask.segments[0].actions)
+            if known.end is not None and known.end > n_actions:
+                raise Unprocessable([*at, "end"], f"is {known.end}; the last state is {n_actions}")
+            before = n_actions if known.end is None else known.end
+            checks.check_length(known.actions, before, [*at, "actions"], "states before the end")
+            names.check_actions([*chain.from_iterable(known.actions)], [*at, "actions"])
+        case wire.KnownActions(), wire.AskLabelFull():
+            n_actions = checks.n_actions_of(ask.segments)
+            checks.check_length(known.actions, n_actions, [*at, "actions"], "actions")
+            names.check_actions([*chain.from_iterable(known.actions)], [*at, "actions"])
+
+
+def marks(known: wire.Known, answer: wire.Answer) -> list[wire.Mark]:
+    """Mark each label of an answer that fits its query."""
+    match known, answer:
+        case wire.KnownVerdict(), wire.InspectAnswer():
+            return _marks([answer.verdict], [[known.verdict]])
+        case wire.KnownSubgoals(), wire.LabelHiAnswer():
+            return _marks(answer.subgoals, known.subgoals)
+        case wire.KnownSegment(), wire.LabelLoAnswer():
+            right = [*known.actions, [NOT_DONE if known.end is None else DONE]]
+            return _marks(_of_states(answer)[: len(right)], right)
+        case wire.KnownActions(), wire.LabelFullAnswer():
+            return _marks(answer.actions, known.actions)
+        case _:
+            raise TypeError(f"{answer.kind} answers no {known.kind}")
+
+
+def _end(answer: wire.LabelLoAnswer) -> int | None:
+    return answer.terminations.index(True) if True in answer.terminations else None
+
+
+def _of_states(answer: wire.LabelLoAnswer) -> list[str | None]:
+    """Return the label of each state: its action, or that the segment is done there; after that there is none."""
+    end = _end(answer)
+    if end is None:
+        return [*answer.actions, NOT_DONE]
+    after: list[str | None] = [None] * (len(answer.actions) - end)
+    return [*answer.actions[:end], DONE, *after]
+
+
+def _marks(given: Sequence[str | None], right: Sequence[Sequence[str]]) -> list[wire.Mark]:
+    return [
+        wire.Mark(place=place, given=label, right=list(choices), is_right=label in choices)
+        for place, (label, choices) in enumerate(zip(given, right, strict=True))
+    ]

@@ -1,0 +1,41 @@
+"""What every request can reach: the settings, the store, the wake-ups."""
+
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from typing import Annotated, cast
+
+from fastapi import Depends
+from starlette.requests import HTTPConnection
+
+from waypost_server.auth.lookup import Attempts, Credentials
+from waypost_server.db.engine import Database
+from waypost_server.db.wakeups import Hub
+from waypost_server.gold.practice import PracticeSet
+from waypost_server.play.relay import Relay
+from waypost_server.settings import Settings
+
+try:
+    VERSION = version("waypost")
+except PackageNotFoundError:  # run from a checkout that was not installed
+    VERSION = "0.0.0"
+
+
+@dataclass(frozen=True)
+class Context:
+    """One server's state."""
+
+    settings: Settings
+    db: Database
+    hub: Hub
+    credentials: Credentials
+    attempts: Attempts
+    practice: PracticeSet
+    relay: Relay
+
+
+async def context_of(connection: HTTPConnection) -> Context:
+    """Return the context of the app that serves a request or a socket."""
+    return cast(Context, connection.app.state.context)
+
+
+Ctx = Annotated[Context, Depends(context_of)]

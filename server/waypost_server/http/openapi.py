@@ -1,0 +1,107 @@
+"""The OpenAPI document, complete enough to generate clients from; `python -m server.openapi` prints it."""
+
+import json
+import sys
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+from pydantic.json_schema import models_json_schema
+
+from waypost import wire
+from waypost_server import errors
+from waypost_server.http import problems
+
+SHARED = problems.refusals(
+    errors.Unauthenticated,
+    errors.Forbidden,
+    errors.CrossSite,
+    errors.BodyTooLarge,
+    errors.NotJson,
+    errors.Unprocessable,
+    errors.StorageFailed,
+)
+PROBLEM = {"$ref": "#/components/schemas/Problem"}
+PLAYED = (wire.PlayTake, wire.PlayOffer, wire.PlayMoves, wire.PlayStates, wire.PlayStage)
+
+
+def install(app: FastAPI) -> None:
+    """Have the app describe itself with this document."""
+
+    def build() -> dict[str, Any]:
+        if app.openapi_schema is None:
+            app.openapi_schema = document(app)
+        return app.openapi_schema
+
+    app.openapi = build  # type: ignore[method-assign]  # FastAPI's own way to extend the document
+
+
+def document(app: FastAPI) -> dict[str, Any]:
+    """Return the app's OpenAPI document."""
+    found = get_openapi(title=app.title, version=app.version, summary=app.summary, routes=app.routes)
+    for path in found["paths"].values():
+        for operation in path.values():
+            _state_problems(operation)
+    schemas = found["components"]["schemas"]
+    for name in ("HTTPValidationError", "ValidationError"):
+        schemas.pop(name, None)
+    schemas.update(_socket_messages() | schemas)
+    return _renamed(found)
+
+
+def _socket_messages() -> dict[str, Any]:
+    """Return the schemas of the messages of the play socket, which OpenAPI has no path for."""
+    _, schema = models_json_schema(
+        [(model, "serialization") for model in PLAYED], ref_template="#/components/schemas/{model}"
+    )
+    messages: dict[str, Any] = schema["$defs"]
+    return messages
+
+
+def _state_problems(operation: dict[str, Any]) -> None:
+    """Give every operation the refusals that any of them may answer, all as problem documents."""
+    responses: dict[str, Any] = operation["responses"]
+    responses.pop("422", None) if _is_fastapis(responses.get("422")) else None
+    for status, shared in SHARED.items():
+        if status in {401, 403} and "security" not in operation:
+            continue
+        if status in {413, 415} and "requestBody" not in operation:
+            continue
+        stated = responses.setdefault(str(status), {"description": shared["description"], "content": {}})
+        content = stated["content"].setdefault(problems.MEDIA_TYPE, {})
+        content["examples"] = shared["content"][problems.MEDIA_TYPE]["examples"] | content.get("examples", {})
+    for status, response in responses.items():
+        if status >= "400":
+            examples = response["content"][problems.MEDIA_TYPE]["examples"]
+            response["content"] = {problems.MEDIA_TYPE: {"schema": PROBLEM, "examples": examples}}
+
+
+def _is_fastapis(response: dict[str, Any] | None) -> bool:
+    """Say whether a 422 is FastAPI's own, which this server never sends."""
+    return response is not None and "HTTPValidationError" in json.dumps(response)
+
+
+def _renamed(document: dict[str, Any]) -> dict[str, Any]:
+    """Call what is sent and received `Ask` and `AskInput` rather than `Ask-Output` and `Ask-Input`."""
+    text = json.dumps(document)
+    for name in document["components"]["schemas"]:
+        if name.endswith("-Output"):
+            text = text.replace(f'"{name}"', f'"{name.removesuffix("-Output")}"')
+            text = text.replace(f'/{name}"', f'/{name.removesuffix("-Output")}"')
+        elif name.endswith("-Input"):
+            text = text.replace(f'"{name}"', f'"{name.replace("-", "")}"')
+            text = text.replace(f'/{name}"', f'/{name.replace("-", "")}"')
+    renamed: dict[str, Any] = json.loads(text)
+    return renamed
+
+
+def main() -> None:
+    """Print the document."""
+    from waypost_server.app import create_app
+
+    json.dump(create_app().openapi(), sys.stdout, indent=2)
+    sys.stdout.write("\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,94 @@
+"""Refusals on the wire: RFC 9457 problem documents, and their place in the OpenAPI document."""
+
+import http
+import logging
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from starlette.exceptions import HTTPException
+
+from waypost import wire
+from waypost_server import errors
+from waypost_server.errors import Refusal
+
+log = logging.getLogger("waypost")
+
+MEDIA_TYPE = "application/problem+json"
+
+
+def document(status: int, name: str, title: str, detail: str, **more: Any) -> dict[str, Any]:
+    """Return the body of a problem document."""
+    return {"type": f"/problems/{name}", "title": title, "status": status, "detail": detail, **more}
+
+
+def render(refusal: Refusal, instance: str | None = None) -> JSONResponse:
+    """Return a refusal as a response."""
+    more: dict[str, Any] = {"instance": instance}
+    if refusal.errors is not None:
+        more["errors"] = refusal.errors
+    headers = {}
+    if refusal.retry_after is not None:
+        headers["Retry-After"] = str(math.ceil(refusal.retry_after))
+    if isinstance(refusal, errors.Unauthenticated):
+        headers["WWW-Authenticate"] = "Bearer"
+    body = document(refusal.status, refusal.name, refusal.title, refusal.detail, **more)
+    return JSONResponse(body, refusal.status, headers, MEDIA_TYPE)
+
+
+def field_path(location: tuple[str | int, ...]) -> list[str | int]:
+    """Return where a field is, without the tags pydantic adds for the members of a union."""
+    last = len(location) - 1
+    return [part for place, part in enumerate(location) if place == last or part not in wire.KINDS]
+
+
+def invalid(error: RequestValidationError) -> dict[str, Any]:
+    """Return the problem document of a request that does not fit its schema."""
+    faults = [
+        {"loc": field_path(fault["loc"]), "msg": fault["msg"], "type": fault["type"]} for fault in error.errors()[:100]
+    ]
+    first = faults[0] if faults else {"loc": [], "msg": "invalid"}
+    detail = f"{'.'.join(str(part) for part in first['loc'])}: {first['msg']}"
+    return document(422, errors.Unprocessable.name, errors.Unprocessable.title, detail, errors=faults)
+
+
+def install(app: FastAPI) -> None:
+    """Answer every error of the app with a problem document."""
+
+    @app.exception_handler(Refusal)
+    async def refused(request: Request, error: Refusal) -> JSONResponse:
+        return render(error, request.url.path)
+
+    @app.exception_handler(RequestValidationError)
+    async def unprocessable(request: Request, error: RequestValidationError) -> JSONResponse:
+        return JSONResponse(invalid(error) | {"instance": request.url.path}, 422, media_type=MEDIA_TYPE)
+
+    @app.exception_handler(HTTPException)
+    async def http_error(request: Request, error: HTTPException) -> JSONResponse:
+        title = http.HTTPStatus(error.status_code).phrase
+        body = document(error.status_code, title.lower().replace(" ", "-"), title, str(error.detail))
+        headers: Mapping[str, str] | None = error.headers
+        return JSONResponse(body | {"instance": request.url.path}, error.status_code, headers, MEDIA_TYPE)
+
+    @app.exception_handler(Exception)
+    async def failed(request: Request, error: Exception) -> JSONResponse:
+        log.error("%s %s failed", request.method, request.url.path, exc_info=error)
+        detail = "The server failed; its log says why."
+        body = document(500, "internal-error", "Internal error", detail, instance=request.url.path)
+        return JSONResponse(body, 500, media_type=MEDIA_TYPE)
+
+
+def refusals(*kinds: type[Refusal]) -> dict[int | str, dict[str, Any]]:
+    """Return the `responses=` of a route that may refuse in these ways, besides those every route shares."""
+    responses: dict[int | str, dict[str, Any]] = {}
+    for kind in kinds:
+        example = document(kind.status, kind.name, kind.title, (kind.__doc__ or "").split("\n")[0])
+        response = responses.setdefault(
+            kind.status, {"model": wire.Problem, "description": "", "content": {MEDIA_TYPE: {"examples": {}}}}
+        )
+        response["content"][MEDIA_TYPE]["examples"][kind.name] = {"summary": kind.title, "value": example}
+        response["description"] = "; ".join(filter(None, [response["description"], kind.title])) + ""
+    return responses

@@ -1,0 +1,46 @@
+"""Frames: a learner uploads pictures of states, the page shows them."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Path, Response
+
+from waypost import wire
+from waypost_server import errors
+from waypost_server.auth.permissions import AnyoneCalls, LearnerCalls
+from waypost_server.http.context import Ctx
+from waypost_server.http.jsonbody import JsonRoute
+from waypost_server.http.problems import refusals
+from waypost_server.queries import frames
+
+router = APIRouter(prefix="/frames", tags=["frames"], route_class=JsonRoute)
+
+Hash = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$", description="The SHA-256 of the PNG.")]
+HEADERS = {
+    "Cache-Control": "private, max-age=31536000, immutable",
+    "Content-Security-Policy": "default-src 'none'; sandbox",
+}
+
+
+@router.put("", status_code=204, operation_id="putFrames")
+async def put_frames(body: wire.FrameUpload, context: Ctx, _: LearnerCalls) -> None:
+    """Upload pictures of states, all of them or none; those uploaded before stay as they are."""
+    files = frames.decode(body, context.settings.max_frame_bytes)
+    await context.db.write(lambda tx: frames.store(tx, files))
+
+
+@router.post("/missing", operation_id="missingFrames")
+async def missing_frames(body: wire.FrameHashes, context: Ctx, _: LearnerCalls) -> wire.FrameHashes:
+    """Return which of these frames have to be uploaded."""
+    return await context.db.read(lambda tx: wire.FrameHashes(hashes=frames.missing(tx, body.hashes)))
+
+
+@router.get(
+    "/{frame}",
+    operation_id="getFrame",
+    response_class=Response,
+    responses=refusals(errors.NotFound) | {200: {"description": "The picture.", "content": {"image/png": {}}}},
+)
+async def get_frame(frame: Hash, context: Ctx, _: AnyoneCalls) -> Response:
+    """Return a picture; what a hash names never changes."""
+    png = await context.db.read(lambda tx: frames.find(tx, frame))
+    return Response(png, media_type="image/png", headers=HEADERS)

@@ -1,0 +1,87 @@
+"""Frames: pictures of states, for domains that the page has no renderer for. A frame goes by the SHA-256 of its PNG."""
+
+import base64
+import binascii
+import hashlib
+from collections.abc import Iterable, Sequence
+
+from sqlalchemy import select
+
+from waypost import wire
+from waypost_server import errors
+from waypost_server.db.engine import Tx
+from waypost_server.db.tables import frames
+from waypost_server.errors import Unprocessable
+
+MOST_PIXELS = 4_096  # on a side
+_SIGNATURE = b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR"
+_END = b"\x00\x00\x00\x00IEND\xaeB`\x82"
+_AT_ONCE = 500  # hashes looked up in one statement
+
+
+def decode(upload: wire.FrameUpload, most_bytes: int) -> dict[str, bytes]:
+    """Return the files of an upload by their hashes.
+
+    Raises:
+        Unprocessable: one that is no PNG, is too large, or goes by the hash of another.
+    """
+    return {frame.hash: _decode(frame, place, most_bytes) for place, frame in enumerate(upload.frames)}
+
+
+def _decode(frame: wire.Frame, place: int, most_bytes: int) -> bytes:
+    at: list[str | int] = ["body", "frames", place]
+    try:
+        png = base64.b64decode(frame.png, validate=True)
+    except binascii.Error as error:
+        raise Unprocessable([*at, "png"], f"is not base64: {error}") from None
+    if len(png) > most_bytes:
+        raise Unprocessable([*at, "png"], f"has {len(png)} bytes; a frame may have {most_bytes}")
+    if not png.startswith(_SIGNATURE) or not png.endswith(_END):
+        raise Unprocessable([*at, "png"], "is no PNG")
+    width, height = int.from_bytes(png[16:20]), int.from_bytes(png[20:24])
+    if not (1 <= width <= MOST_PIXELS and 1 <= height <= MOST_PIXELS):
+        raise Unprocessable([*at, "png"], f"is {width} x {height} pixels; at most {MOST_PIXELS} on a side")
+    if hashlib.sha256(png).hexdigest() != frame.hash:
+        raise Unprocessable([*at, "hash"], "is not the SHA-256 of this file")
+    return png
+
+
+def missing(tx: Tx, hashes: Iterable[str]) -> list[str]:
+    """Return those of the hashes that no stored frame has, each once, in the order given."""
+    wanted = list(dict.fromkeys(hashes))
+    stored: set[str] = set()
+    for first in range(0, len(wanted), _AT_ONCE):
+        some = frames.c.hash.in_(wanted[first : first + _AT_ONCE])
+        stored |= set(tx.conn.execute(select(frames.c.hash).where(some)).scalars())
+    return [one for one in wanted if one not in stored]
+
+
+def store(tx: Tx, files: dict[str, bytes]) -> None:
+    """Keep frames; those that are there stay as they are."""
+    rows = [{"hash": one, "png": files[one], "created_at": tx.now} for one in missing(tx, files)]
+    if rows:
+        tx.conn.execute(tx.upsert(frames).on_conflict_do_nothing(), rows)  # another learner may be storing the same
+
+
+def find(tx: Tx, frame: str) -> bytes:
+    """Return a frame's PNG.
+
+    Raises:
+        NotFound: if it is not stored.
+    """
+    png = tx.conn.execute(select(frames.c.png).where(frames.c.hash == frame)).scalar_one_or_none()
+    if png is None:
+        raise errors.NotFound(f"There is no frame {frame}.")
+    return bytes(png)
+
+
+def check_stored(tx: Tx, asks: Sequence[wire.Ask]) -> None:
+    """Refuse queries that show a frame nobody has uploaded.
+
+    Raises:
+        Unprocessable: naming the first such frame.
+    """
+    segments = [s for ask in asks for s in (*getattr(ask, "segments", ()), *ask.context)]
+    absent = missing(tx, (frame for segment in segments for frame in segment.frames))
+    if absent:
+        raise Unprocessable(["body", "queries"], f"frame {absent[0]} is not stored; upload it before asking")

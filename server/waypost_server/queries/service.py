@@ -1,0 +1,271 @@
+"""Queries: asking, seeing and using. A query is known by (run, episode, ordinal) and its content."""
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from fastapi import Path
+from pydantic import TypeAdapter
+from sqlalchemy import Row, Select, and_, bindparam, func, insert, select, tuple_, update
+
+from waypost import prices as pricing
+from waypost import wire
+from waypost.prices import to_units
+from waypost_server import errors
+from waypost_server.db import canonical, wakeups
+from waypost_server.db.engine import Tx
+from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
+from waypost_server.db.tables import runs as run_table
+from waypost_server.queries import checks, frames
+from waypost_server.runs import events, ledger
+from waypost_server.runs import service as runs
+
+QueryId = Annotated[int, Path(ge=1, le=2**63 - 1)]
+
+CLOSED = frozenset({"answered", "cancelled"})
+ASK: TypeAdapter[wire.Ask] = TypeAdapter(wire.Ask)
+ANSWER: TypeAdapter[wire.Answer] = TypeAdapter(wire.Answer)
+
+_annotator = users.alias("annotator")
+_holder = users.alias("holder")
+
+QUERIES: Select[Any] = (
+    select(
+        queries,
+        answers.c.content.label("answer"),
+        answers.c.units,
+        answers.c.seconds,
+        answers.c.active_seconds,
+        func.coalesce(_annotator.c.name, _holder.c.name).label("annotator"),
+        func.coalesce(run_table.c.gold_of, run_table.c.id).label("shown_run"),  # a gold query looks like the others
+    )
+    .select_from(queries)
+    .join(run_table, run_table.c.id == queries.c.run_id)
+    .outerjoin(answers, answers.c.id == queries.c.answer_id)
+    .outerjoin(_annotator, _annotator.c.id == answers.c.user_id)
+    .outerjoin(assignments, and_(assignments.c.query_id == queries.c.id, IS_LIVE))
+    .outerjoin(_holder, _holder.c.id == assignments.c.user_id)
+)
+
+
+_VIEW = QUERIES.where(queries.c.id == bindparam("query"))
+_INSERT = insert(queries).returning(queries.c.id, sort_by_parameter_order=True)
+
+
+@dataclass(frozen=True)
+class Filter:
+    """Which queries of a run to list."""
+
+    state: wire.QueryState | None
+    kind: wire.Kind | None
+    episode: int | None
+    before: int | None
+    limit: int
+
+
+@dataclass(frozen=True)
+class Content:
+    """What is asked, as it is stored and compared."""
+
+    ask: wire.Ask
+    text: str
+    digest: str
+
+    @classmethod
+    def of(cls, ask: wire.Ask) -> "Content":
+        """Return the canonical content of a query; its pictures are kept, but are not what is asked."""
+        content = ask.model_dump(mode="json")
+        text = canonical.text(content)
+        for segment in [*content.get("segments", []), *content["context"]]:
+            del segment["frames"]
+        return cls(ask, text, canonical.digest(canonical.text(content)))
+
+    @property
+    def key(self) -> tuple[int, int]:
+        """What names it within its run."""
+        return (self.ask.episode, self.ask.ordinal)
+
+
+def topic(query: int) -> str:
+    """Return what a change of a query wakes."""
+    return f"query:{query}"
+
+
+def of_row(row: Row[Any]) -> wire.Query:
+    """Return a row of `QUERIES` as it goes over the wire."""
+    return wire.Query(
+        id=row.id,
+        run=row.shown_run,
+        state=row.state,
+        priority=row.priority,
+        created_at=row.created_at,
+        ask=ASK.validate_json(row.ask),
+        answer=None if row.answer is None else ANSWER.validate_json(row.answer),
+        answer_id=row.answer_id,
+        used=row.used,
+        annotator=row.annotator,
+        units=None if row.units is None else to_units(row.units),
+        seconds=row.seconds,
+        active_seconds=row.active_seconds,
+    )
+
+
+def view(tx: Tx, query: int) -> wire.Query:
+    """Return a query."""
+    row = tx.conn.execute(_VIEW, {"query": query}).one_or_none()
+    if row is None:
+        raise errors.NotFound(f"There is no query {query}.")
+    return of_row(row)
+
+
+def newest(tx: Tx, run: str, chosen: Filter) -> wire.QueryList:
+    """List a run's queries, newest first."""
+    runs.find(tx, run)
+    statement = QUERIES.where(queries.c.run_id == run).order_by(queries.c.id.desc()).limit(chosen.limit)
+    if chosen.state is not None:
+        statement = statement.where(queries.c.state == chosen.state)
+    if chosen.kind is not None:
+        statement = statement.where(queries.c.kind == chosen.kind)
+    if chosen.episode is not None:
+        statement = statement.where(queries.c.episode == chosen.episode)
+    if chosen.before is not None:
+        statement = statement.where(queries.c.id < chosen.before)
+    return wire.QueryList(queries=[of_row(row) for row in tx.conn.execute(statement)])
+
+
+def answered_after(tx: Tx, run: str, cursor: int, limit: int) -> wire.AnswerPage:
+    """Return the queries whose answers came after a cursor, in the order of the answers."""
+    runs.find(tx, run)
+    statement = (
+        QUERIES.where(queries.c.run_id == run, answers.c.run_id == run, answers.c.id > cursor)
+        .order_by(answers.c.id)
+        .limit(limit)
+    )
+    found = [of_row(row) for row in tx.conn.execute(statement)]
+    last = found[-1].answer_id if found else None
+    return wire.AnswerPage(queries=found, cursor=cursor if last is None else last)
+
+
+def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_open: int) -> wire.Asked:
+    """Ask all of the queries or none; those asked before are returned as they stand."""
+    run_row = runs.lock(tx, run)
+    known = _known(tx, run, contents)
+    new = _new(contents, known)
+    if new:
+        _check_new(tx, run_row, body, new, most_open)
+        prices = wire.Prices.model_validate_json(run_row.prices)
+        reserves = [pricing.highest_cost(one.ask, prices).units for one in new]
+        ledger.reserve(tx, runs.account(run_row), sum(reserves))
+        ids = _insert(tx, run_row, new, body.priority, reserves)
+        known |= {one.key: (query, one.digest) for one, query in zip(new, ids, strict=True)}
+        tx.wake(wakeups.QUEUE)
+    rows = tx.conn.execute(QUERIES.where(queries.c.id.in_([known[one.key][0] for one in contents]))).all()
+    views = {row.id: of_row(row) for row in rows}
+    return wire.Asked(queries=[views[known[one.key][0]] for one in contents])
+
+
+def _known(tx: Tx, run: str, contents: Sequence[Content]) -> dict[tuple[int, int], tuple[int, str]]:
+    keys = [one.key for one in contents]
+    rows = tx.conn.execute(
+        select(queries.c.id, queries.c.episode, queries.c.ordinal, queries.c.digest).where(
+            queries.c.run_id == run, tuple_(queries.c.episode, queries.c.ordinal).in_(keys)
+        )
+    )
+    return {(row.episode, row.ordinal): (row.id, row.digest) for row in rows}
+
+
+def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, str]]) -> list[Content]:
+    """Return what was not asked before; refuse a key that came with other content."""
+    new: dict[tuple[int, int], Content] = {}
+    for place, one in enumerate(contents):
+        earlier = known[one.key][1] if one.key in known else None
+        if one.key in new:
+            earlier = new[one.key].digest
+        if earlier is None:
+            new[one.key] = one
+        elif earlier != one.digest:
+            raise errors.DifferentContent(
+                f"queries.{place}: episode {one.ask.episode} has asked its query {one.ask.ordinal} before, "
+                "with other content."
+            )
+    return list(new.values())
+
+
+def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Content], most_open: int) -> None:
+    if run_row.state == "finished":
+        raise errors.RunFinished("The run is finished; it asks nothing more.")
+    names = checks.Names.of(wire.Vocabulary.model_validate_json(run_row.vocabulary))
+    for one in new:
+        checks.check_ask(one.ask, names, ["body", "queries", body.queries.index(one.ask)])
+    frames.check_stored(tx, [one.ask for one in new])
+    waiting = select(func.count()).where(queries.c.run_id == run_row.id, queries.c.state.in_(runs.UNANSWERED))
+    n_open = tx.conn.execute(waiting).scalar_one()
+    if n_open + len(new) > most_open:
+        raise errors.TooManyQueries(
+            f"The run has {n_open} open queries, and may have {most_open}; wait for answers.", retry_after=1
+        )
+
+
+def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, reserves: Sequence[int]) -> list[int]:
+    """Store new queries and their events, many at once; returns their ids in the same order."""
+    answered_last = _answered_last(tx, run_row.id, {one.ask.episode for one in new})
+    rows = [
+        {
+            "run_id": run_row.id,
+            "episode": one.ask.episode,
+            "ordinal": one.ask.ordinal,
+            "kind": one.ask.kind,
+            "state": "open",
+            "priority": priority,
+            "run_priority": run_row.priority,
+            "ask": one.text,
+            "digest": one.digest,
+            "reserve": reserve,
+            "revision": 0,
+            "used": False,
+            "created_at": tx.now,
+            "follows_user_id": answered_last.get(one.ask.episode),
+        }
+        for one, reserve in zip(new, reserves, strict=True)
+    ]
+    ids = [int(query) for query in tx.conn.execute(_INSERT, rows).scalars()]
+    for query, one in zip(ids, new, strict=True):
+        data = {"query": query, "kind": one.ask.kind, "episode": one.ask.episode, "ordinal": one.ask.ordinal}
+        events.add(tx, run_row.id, "asked", data)
+    return ids
+
+
+def _answered_last(tx: Tx, run: str, episodes: Collection[int]) -> dict[int, int]:
+    """Return who answered each of these episodes last, if anybody did."""
+    newest = (
+        select(func.max(queries.c.answer_id))
+        .where(queries.c.run_id == run, queries.c.state == "answered", queries.c.episode.in_(episodes))
+        .group_by(queries.c.episode)
+    )
+    rows = tx.conn.execute(
+        select(queries.c.episode, answers.c.user_id)
+        .join(answers, answers.c.id == queries.c.answer_id)
+        .where(answers.c.id.in_(newest))
+    )
+    return {row.episode: row.user_id for row in rows}
+
+
+def use(tx: Tx, query: int) -> wire.Query:
+    """Mark the answer as used, so that it can be retracted no more.
+
+    Raises:
+        NotAnswered: if there is no answer, for instance because it was retracted meanwhile.
+    """
+    found = view(tx, query)
+    runs.lock(tx, found.run)
+    changed = tx.conn.execute(
+        update(queries)
+        .where(queries.c.id == query, queries.c.run_id == found.run, queries.c.state == "answered", ~queries.c.used)
+        .values(used=True)
+    )
+    now = view(tx, query)
+    if not now.used:
+        raise errors.NotAnswered(f"Query {query} is {now.state}; wait for its answer.")
+    if changed.rowcount:
+        events.add(tx, now.run, "used", {"query": query, "answer": now.answer_id})
+    return now

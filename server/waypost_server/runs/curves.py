@@ -1,0 +1,159 @@
+"""Curves and costs of a run: success by episode and by cost, out of the reported episodes and the ledger alone."""
+
+from bisect import bisect_right
+from collections import defaultdict, deque
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
+from sqlalchemy import func, select
+
+from waypost import wire
+from waypost.prices import to_units
+from waypost_server.db.engine import Tx
+from waypost_server.db.tables import episodes, ledger
+from waypost_server.runs import service as runs
+
+LEVELS = ("0.8", "0.9", "0.95", "0.99")
+
+
+@dataclass(frozen=True)
+class Spent:
+    """The ledger's sum for one kind of query in one episode; money in micro-units."""
+
+    episode: int
+    kind: wire.Kind
+    queries: int
+    units: int
+    lo_units: int
+    seconds: float
+    active_seconds: float
+
+
+def trailing(outcomes: Sequence[bool | None], window: int = runs.TRAILING) -> list[float | None]:
+    """Return the success rate over the last `window` test episodes at each episode; untested ones are left out."""
+    recent: deque[bool] = deque(maxlen=window)
+    rates: list[float | None] = []
+    for outcome in outcomes:
+        if outcome is not None:
+            recent.append(outcome)
+        rates.append(sum(recent) / len(recent) if recent else None)
+    return rates
+
+
+def _ledger(tx: Tx, run: str) -> list[Spent]:
+    signed = func.sum(ledger.c.units)
+    charges = func.count().filter(ledger.c.entry == "charge") - func.count().filter(ledger.c.entry == "refund")
+    rows = tx.conn.execute(
+        select(
+            ledger.c.episode,
+            ledger.c.kind,
+            charges,
+            signed,
+            func.sum(ledger.c.lo_units),
+            func.sum(ledger.c.seconds),
+            func.sum(ledger.c.active_seconds),
+        )
+        .where(ledger.c.run_id == run)
+        .group_by(ledger.c.episode, ledger.c.kind)
+        .order_by(ledger.c.episode)
+    )
+    return [Spent(row[0], row[1], row[2], int(row[3]), int(row[4]), row[5], row[6]) for row in rows]
+
+
+def _tests(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:
+    """Return the reported episodes and what their tests brought."""
+    rows = tx.conn.execute(
+        select(episodes.c.episode, episodes.c.test_success).where(episodes.c.run_id == run).order_by(episodes.c.episode)
+    ).all()
+    return [row.episode for row in rows], [row.test_success for row in rows]
+
+
+def _results(tx: Tx, run: str) -> list[wire.EpisodeResult]:
+    """Return the reported episodes with all that was reported of them."""
+    rows = tx.conn.execute(select(episodes.c.result).where(episodes.c.run_id == run).order_by(episodes.c.episode))
+    return [wire.EpisodeResult.model_validate_json(row.result) for row in rows]
+
+
+def _cumulative(reported: Sequence[int], amounts: Iterable[tuple[int, float]]) -> list[float]:
+    """Return the running sum at each reported episode, of amounts in episode order."""
+    sums: list[float] = []
+    pending = iter([*amounts, (2**63, 0)])
+    episode, amount = next(pending)
+    total: float = 0
+    for row in reported:
+        while episode <= row:
+            total += amount
+            episode, amount = next(pending)
+        sums.append(total)
+    return sums
+
+
+def curves(tx: Tx, run: str, after: int = -1) -> wire.Curves:
+    """Return success and cumulative cost, a row per reported episode past one."""
+    runs.find(tx, run)
+    results = _results(tx, run)
+    reported, tests = [result.episode for result in results], [result.test_success for result in results]
+    spent = _ledger(tx, run)
+    by_kind: dict[wire.Kind, list[tuple[int, float]]] = defaultdict(list)
+    for entry in spent:
+        by_kind[entry.kind].append((entry.episode, entry.units))
+    first = bisect_right(reported, after)
+    return wire.Curves(
+        episode=reported[first:],
+        success_rate=trailing(tests)[first:],
+        test_success=tests[first:],
+        cost=_units(_cumulative(reported, ((entry.episode, entry.units) for entry in spent)))[first:],
+        lo_cost=_units(_cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent)))[first:],
+        seconds=_cumulative(reported, ((entry.episode, entry.seconds) for entry in spent))[first:],
+        active_seconds=_cumulative(reported, ((entry.episode, entry.active_seconds) for entry in spent))[first:],
+        cost_by_kind={kind: _units(_cumulative(reported, by_kind[kind]))[first:] for kind in wire.KINDS},
+        hi_labels=[result.hi_labels for result in results[first:]],
+        lo_samples=list(accumulate(result.train_steps for result in results))[first:],
+        learner_seconds=list(accumulate(result.seconds for result in results))[first:],
+    )
+
+
+def _units(micro: Iterable[float]) -> list[float]:
+    return [to_units(int(amount)) for amount in micro]
+
+
+def costs(tx: Tx, run: str) -> wire.Costs:
+    """Return the ledger's sums, and when the success rate first reached each level."""
+    row = runs.find(tx, run)
+    reported, tests = _tests(tx, run)
+    spent = _ledger(tx, run)
+    by_kind = {kind: _sum([entry for entry in spent if entry.kind == kind]) for kind in wire.KINDS}
+    total = _sum(spent)
+    cost = _units(_cumulative(reported, ((entry.episode, entry.units) for entry in spent)))
+    return wire.Costs(
+        total=total.units,
+        lo_total=total.lo_units,
+        seconds=total.seconds,
+        active_seconds=total.active_seconds,
+        by_kind=by_kind,
+        reserved=to_units(row.reserved),
+        budget=None if row.budget is None else to_units(row.budget),
+        first_at={level: _first_at(float(level), reported, tests, cost) for level in LEVELS},
+    )
+
+
+def _sum(spent: Sequence[Spent]) -> wire.CostOfKind:
+    return wire.CostOfKind(
+        queries=sum(entry.queries for entry in spent),
+        units=to_units(sum(entry.units for entry in spent)),
+        lo_units=to_units(sum(entry.lo_units for entry in spent)),
+        seconds=max(sum(entry.seconds for entry in spent), 0.0),
+        active_seconds=max(sum(entry.active_seconds for entry in spent), 0.0),
+    )
+
+
+def _first_at(
+    level: float, reported: Sequence[int], tests: Sequence[bool | None], cost: Sequence[float]
+) -> wire.Milestone | None:
+    """Return where the rate over a full window of tests first reached a level."""
+    tested = accumulate(int(outcome is not None) for outcome in tests)
+    for episode, units, n_tests, rate in zip(reported, cost, tested, trailing(tests), strict=True):
+        if n_tests >= runs.TRAILING and rate is not None and rate >= level:
+            return wire.Milestone(episode=episode, cost=units)
+    return None

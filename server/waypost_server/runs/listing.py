@@ -1,0 +1,79 @@
+"""Which runs a list shows: filtered, sorted and paged by the database."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from sqlalchemy import Select, String, func, or_, select
+from sqlalchemy.ext.compiler import compiles
+from sqlalchemy.sql.elements import ColumnElement
+from sqlalchemy.sql.functions import FunctionElement
+
+from waypost import wire
+from waypost_server.db.engine import Tx
+from waypost_server.db.tables import runs
+from waypost_server.runs.service import RUNS, of_row
+
+
+@dataclass(frozen=True)
+class Filter:
+    """Which runs, in which order, and which page of them."""
+
+    text: str = ""
+    state: wire.RunState | None = None
+    ids: tuple[str, ...] = ()
+    sort: wire.RunSort = "newest"
+    descending: bool = True
+    offset: int = 0
+    limit: int = 200
+
+
+class domain(FunctionElement[str]):  # noqa: N801 - a SQL function
+    """The name of a run's domain, out of its vocabulary."""
+
+    inherit_cache = True
+    type = String()
+
+
+@compiles(domain, "sqlite")
+def _sqlite_domain(element: domain, compiler: Any, **options: Any) -> str:
+    return f"json_extract({compiler.process(element.clauses, **options)}, '$.domain')"
+
+
+@compiles(domain, "postgresql")
+def _postgresql_domain(element: domain, compiler: Any, **options: Any) -> str:
+    return f"(CAST({compiler.process(element.clauses, **options)} AS json) ->> 'domain')"
+
+
+def listed(tx: Tx, chosen: Filter) -> wire.RunList:
+    """Return a page of runs, and how many there are in all."""
+    conditions = _conditions(chosen)
+    total = tx.conn.execute(select(func.count()).select_from(runs).where(*conditions)).scalar_one()
+    page = _sorted(RUNS.where(*conditions), chosen).limit(chosen.limit).offset(chosen.offset)
+    return wire.RunList(runs=[of_row(row) for row in tx.conn.execute(page)], total=total)
+
+
+def _conditions(chosen: Filter) -> list[ColumnElement[bool]]:
+    conditions: list[ColumnElement[bool]] = [runs.c.gold_of.is_(None)]
+    for word in chosen.text.lower().split():
+        places = (runs.c.name, runs.c.algorithm, domain(runs.c.vocabulary), runs.c.id)
+        conditions.append(or_(*(func.lower(place).contains(word, autoescape=True) for place in places)))
+    if chosen.state is not None:
+        conditions.append(runs.c.state == chosen.state)
+    if chosen.ids:
+        conditions.append(runs.c.id.in_(chosen.ids))
+    return conditions
+
+
+def _sorted(statement: Select[Any], chosen: Filter) -> Select[Any]:
+    """Sort by the chosen column, unknown values last; of equals, the newest comes first."""
+    columns = {
+        "newest": runs.c.number,
+        "name": func.lower(runs.c.name),
+        "algorithm": func.lower(runs.c.algorithm),
+        "episodes": statement.selected_columns.episodes_done,
+        "success": statement.selected_columns.success_rate,
+        "cost": runs.c.spent,
+    }
+    column = columns[chosen.sort]
+    order = column.desc() if chosen.descending else column.asc()
+    return statement.order_by(order.nulls_last(), runs.c.number.desc())

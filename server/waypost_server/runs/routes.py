@@ -1,0 +1,113 @@
+"""Runs: create, list, change, report episodes, and read their curves, costs and events."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Header, Query, Request
+from fastapi.responses import StreamingResponse
+
+from waypost import wire
+from waypost_server import errors
+from waypost_server.auth.permissions import AnyoneCalls, LearnerCalls
+from waypost_server.http.context import Ctx
+from waypost_server.http.jsonbody import JsonRoute
+from waypost_server.http.problems import refusals
+from waypost_server.runs import curves, episodes, events, listing
+from waypost_server.runs import service as runs
+
+router = APIRouter(prefix="/runs", tags=["runs"], route_class=JsonRoute)
+
+
+@router.post("", status_code=201, operation_id="createRun")
+async def create_run(body: wire.RunCreate, context: Ctx, caller: LearnerCalls) -> wire.Run:
+    """Create a run: one learner's training with one algorithm, domain, seed and cost model."""
+    return await context.db.write(lambda tx: runs.create(tx, body, caller.user))
+
+
+@router.get("", operation_id="listRuns")
+async def list_runs(
+    context: Ctx,
+    _: AnyoneCalls,
+    text: Annotated[
+        str, Query(max_length=200, pattern=r"^[^\x00]*$", description="Words in the name, algorithm, domain or id.")
+    ] = "",
+    state: wire.RunState | None = None,
+    run: Annotated[list[str] | None, Query(max_length=100, description="Only these runs, by id.")] = None,
+    sort: wire.RunSort = "newest",
+    descending: bool = True,
+    offset: Annotated[int, Query(ge=0, le=2**31 - 1)] = 0,
+    limit: Annotated[int, Query(ge=1, le=1_000)] = 200,
+) -> wire.RunList:
+    """List runs, newest first unless sorted otherwise."""
+    chosen = listing.Filter(text, state, tuple(run or ()), sort, descending, offset, limit)
+    return await context.db.read(lambda tx: listing.listed(tx, chosen))
+
+
+@router.get("/{run}", operation_id="getRun", responses=refusals(errors.NotFound))
+async def get_run(run: str, context: Ctx, _: AnyoneCalls) -> wire.Run:
+    """Return a run and where its money is."""
+    return await context.db.read(lambda tx: runs.view(tx, run))
+
+
+@router.patch(
+    "/{run}", operation_id="patchRun", responses=refusals(errors.NotFound, errors.RunFinished, errors.BudgetTooLow)
+)
+async def patch_run(run: str, body: wire.RunPatch, context: Ctx, _: LearnerCalls) -> wire.Run:
+    """Rename, pause, resume or finish a run, or set its budget or priority. Finishing cancels what is still open."""
+    return await context.db.write(lambda tx: runs.patch(tx, run, body))
+
+
+@router.post(
+    "/{run}/episodes",
+    operation_id="reportEpisodes",
+    responses=refusals(errors.NotFound, errors.DifferentContent, errors.RunFinished),
+)
+async def report_episodes(run: str, body: wire.EpisodeList, context: Ctx, _: LearnerCalls) -> wire.Run:
+    """Report what episodes brought. Reporting the same again changes nothing."""
+    return await context.db.write(lambda tx: episodes.report(tx, run, body.episodes))
+
+
+@router.get("/{run}/curves", operation_id="getCurves", responses=refusals(errors.NotFound))
+async def get_curves(
+    run: str,
+    context: Ctx,
+    _: AnyoneCalls,
+    after: Annotated[int, Query(ge=-1, le=2**31 - 1, description="Only the episodes past this one.")] = -1,
+) -> wire.Curves:
+    """Return success and cumulative cost by episode."""
+    return await context.db.read(lambda tx: curves.curves(tx, run, after))
+
+
+@router.get("/{run}/costs", operation_id="getCosts", responses=refusals(errors.NotFound))
+async def get_costs(run: str, context: Ctx, _: AnyoneCalls) -> wire.Costs:
+    """Return the ledger's sums, by kind of query."""
+    return await context.db.read(lambda tx: curves.costs(tx, run))
+
+
+@router.get(
+    "/{run}/events",
+    operation_id="streamEvents",
+    response_class=StreamingResponse,
+    responses=refusals(errors.NotFound)
+    | {
+        200: {
+            "model": wire.Event,
+            "description": "Server-sent events; each `data` is an Event.",
+            "content": {"text/event-stream": {}},
+        }
+    },
+)
+async def stream_events(
+    run: str,
+    request: Request,
+    context: Ctx,
+    _: AnyoneCalls,
+    after: Annotated[
+        int | None, Query(ge=0, le=2**63 - 1, description="Only events past this id; absent: only new ones.")
+    ] = None,
+    last_event_id: Annotated[str | None, Header(max_length=20)] = None,
+) -> StreamingResponse:
+    """Stream what happens in a run, from a cursor on."""
+    start = int(last_event_id) if last_event_id and last_event_id.isascii() and last_event_id.isdigit() else after
+    newest = await context.db.read(lambda tx: events.newest(tx, runs.find(tx, run).id))
+    cursor = newest if start is None else start
+    return StreamingResponse(events.stream(context, request, run, cursor), media_type="text/event-stream")

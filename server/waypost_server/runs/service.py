@@ -1,0 +1,214 @@
+"""Runs: one learner's training each, with its state and its account."""
+
+import json
+import re
+import secrets
+from typing import Any
+
+from sqlalchemy import Float, Row, Select, bindparam, cast, func, insert, select, update
+
+from waypost import wire
+from waypost.prices import to_micro, to_units
+from waypost_server import errors
+from waypost_server.db import canonical, wakeups
+from waypost_server.db.engine import Tx
+from waypost_server.db.tables import IS_LIVE, assignments, episodes, queries, runs
+from waypost_server.runs import events, ledger
+from waypost_server.runs.ledger import Account
+
+TRAILING = 100  # test episodes the success rate is taken over
+UNANSWERED = ("open", "leased")
+_ID = re.compile(r"[0-9a-f]{12}", re.ASCII)
+
+_recent = (
+    select(cast(episodes.c.test_success.cast(runs.c.episodes.type), Float).label("passed"))
+    .where(episodes.c.run_id == runs.c.id, episodes.c.test_success.is_not(None))
+    .order_by(episodes.c.episode.desc())
+    .limit(TRAILING)
+    .correlate(runs)
+    .subquery()
+)
+_success_rate = select(func.avg(_recent.c.passed)).scalar_subquery()
+_episodes_done = select(func.count()).where(episodes.c.run_id == runs.c.id).correlate(runs).scalar_subquery()
+_open_queries = (
+    select(func.count())
+    .where(queries.c.run_id == runs.c.id, queries.c.state.in_(UNANSWERED))
+    .correlate(runs)
+    .scalar_subquery()
+)
+
+RUNS: Select[Any] = select(
+    runs,
+    _success_rate.label("success_rate"),
+    _episodes_done.label("episodes_done"),
+    _open_queries.label("open_queries"),
+).where(runs.c.gold_of.is_(None))
+
+
+def answers_topic(run: str) -> str:
+    """Return what a new answer in a run wakes."""
+    return f"answers:{run}"
+
+
+def of_row(row: Row[Any]) -> wire.Run:
+    """Return a row of `RUNS` as it goes over the wire."""
+    return wire.Run(
+        id=row.id,
+        name=row.name,
+        algorithm=row.algorithm,
+        seed=row.seed,
+        state=row.state,
+        vocabulary=wire.Vocabulary.model_validate_json(row.vocabulary),
+        config=json.loads(row.config),
+        prices=wire.Prices.model_validate_json(row.prices),
+        budget=None if row.budget is None else to_units(row.budget),
+        reserved=to_units(row.reserved),
+        spent=to_units(row.spent),
+        episodes=row.episodes,
+        priority=row.priority,
+        episodes_done=row.episodes_done,
+        success_rate=row.success_rate,
+        open_queries=row.open_queries,
+        gold_rate=row.gold_rate,
+        result=None if row.result is None else json.loads(row.result),
+        created_at=row.created_at,
+        finished_at=row.finished_at,
+    )
+
+
+_FIND = select(runs).where(runs.c.id == bindparam("run"))
+_LOCK = _FIND.with_for_update()
+_VIEW = RUNS.where(runs.c.id == bindparam("run"))
+
+
+def _one(tx: Tx, statement: Select[Any], run: str) -> Row[Any]:
+    row = tx.conn.execute(statement, {"run": run}).one_or_none() if _ID.fullmatch(run) else None
+    if row is None:
+        raise errors.NotFound(f"There is no run {run!r}.")
+    return row
+
+
+def find(tx: Tx, run: str) -> Row[Any]:
+    """Return a run's row.
+
+    Raises:
+        NotFound: if there is no such run.
+    """
+    return _one(tx, _FIND, run)
+
+
+def lock(tx: Tx, run: str) -> Row[Any]:
+    """Return a run's row, locked: its account, its answers and its events change one unit of work at a time."""
+    return _one(tx, _LOCK, run)
+
+
+def account(row: Row[Any]) -> Account:
+    """Return the account of a locked run."""
+    return Account(row.id, row.budget, row.spent, row.reserved)
+
+
+def view(tx: Tx, run: str) -> wire.Run:
+    """Return a run."""
+    return of_row(_one(tx, _VIEW, run))
+
+
+def create(tx: Tx, wanted: wire.RunCreate, user: int) -> wire.Run:
+    """Create a run."""
+    for field in ("subgoals", "actions"):
+        names = getattr(wanted.vocabulary, field)
+        if len(set(names)) != len(names):
+            raise errors.Unprocessable(["body", "vocabulary", field], "names something twice")
+    run = secrets.token_hex(6)
+    tx.conn.execute(
+        insert(runs).values(
+            id=run,
+            user_id=user,
+            name=wanted.name,
+            algorithm=wanted.algorithm,
+            seed=wanted.seed,
+            state="running",
+            vocabulary=wanted.vocabulary.model_dump_json(),
+            config=canonical.text(wanted.config),
+            prices=wanted.prices.model_dump_json(),
+            budget=None if wanted.budget is None else to_micro(wanted.budget),
+            spent=0,
+            reserved=0,
+            episodes=wanted.episodes,
+            created_at=tx.now,
+        )
+    )
+    events.add(tx, run, "run", {"state": "running"})
+    return view(tx, run)
+
+
+def patch(tx: Tx, run: str, wanted: wire.RunPatch) -> wire.Run:
+    """Change a run; absent fields stay. An explicit null lifts the budget or clears the result."""
+    row = lock(tx, run)
+    sent = wanted.model_fields_set
+    changes: dict[str, Any] = {}
+    if wanted.name is not None:
+        changes["name"] = wanted.name
+    if "result" in sent:
+        changes["result"] = None if wanted.result is None else canonical.text(wanted.result)
+    if wanted.priority is not None and wanted.priority != row.priority:
+        changes["priority"] = wanted.priority
+        tx.conn.execute(update(queries).where(queries.c.run_id == run).values(run_priority=wanted.priority))
+    if "budget" in sent:
+        changes["budget"] = _checked_budget(row, wanted.budget)
+    if wanted.gold_rate is not None:
+        changes["gold_rate"] = wanted.gold_rate
+    if wanted.state is not None and wanted.state != row.state:
+        changes |= _new_state(tx, row, wanted.state)
+    if changes:
+        tx.conn.execute(update(runs).where(runs.c.id == run).values(**changes))
+        events.add(tx, run, "run", {"state": changes.get("state", row.state)})
+    return view(tx, run)
+
+
+def _checked_budget(row: Row[Any], budget: float | None) -> int | None:
+    if budget is None:
+        return None
+    held = row.spent + row.reserved
+    if to_micro(budget) < held:
+        raise errors.BudgetTooLow(
+            f"{to_units(row.spent):g} units are spent and {to_units(row.reserved):g} reserved for open queries; "
+            f"the budget cannot be less than {to_units(held):g}. Finish the run to release what is reserved."
+        )
+    return to_micro(budget)
+
+
+def _new_state(tx: Tx, row: Row[Any], state: wire.RunState) -> dict[str, Any]:
+    if row.state == "finished":
+        raise errors.RunFinished("A finished run stays finished; start a new one.")
+    if state == "finished":
+        _cancel_open(tx, row.id)
+        _finish_shadow(tx, row.id)
+        return {"state": state, "finished_at": tx.now}
+    tx.wake(wakeups.QUEUE)
+    return {"state": state}
+
+
+def _finish_shadow(tx: Tx, run: str) -> None:
+    """Let gold queries end with the run's own."""
+    row = tx.conn.execute(select(runs.c.id).where(runs.c.gold_of == run).with_for_update()).one_or_none()
+    if row is not None:
+        _cancel_open(tx, row.id)
+        tx.conn.execute(update(runs).where(runs.c.id == row.id).values(state="finished", finished_at=tx.now))
+
+
+def _cancel_open(tx: Tx, run: str) -> None:
+    """Cancel what is not answered and release what was reserved for it."""
+    waiting = select(queries.c.id, queries.c.reserve).where(queries.c.run_id == run, queries.c.state.in_(UNANSWERED))
+    rows = tx.conn.execute(waiting.with_for_update()).all()
+    if not rows:
+        return
+    ids = select(queries.c.id).where(queries.c.run_id == run, queries.c.state == "cancelled")
+    tx.conn.execute(
+        update(queries).where(queries.c.run_id == run, queries.c.state.in_(UNANSWERED)).values(state="cancelled")
+    )
+    tx.conn.execute(
+        update(assignments).where(assignments.c.query_id.in_(ids), IS_LIVE).values(state="cancelled", ended_at=tx.now)
+    )
+    ledger.release(tx, run, sum(row.reserve for row in rows))
+    events.add(tx, run, "cancelled", {"queries": len(rows)})
+    tx.wake(answers_topic(run), *(f"query:{row.id}" for row in rows))

@@ -1,0 +1,110 @@
+"""Running the app with uvicorn: in the foreground, or on a thread beside a learner, on a socket bound beforehand."""
+
+import socket
+import threading
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+
+import uvicorn
+from fastapi import FastAPI
+
+from waypost_server.app import create_app
+from waypost_server.db.engine import Database
+from waypost_server.play.protocol import MESSAGE_BYTES
+from waypost_server.settings import Settings
+
+GRACE_SECONDS = 2
+
+
+class CannotServe(Exception):
+    """The server cannot start; the message says why and what to do."""
+
+
+class Server(uvicorn.Server):
+    """Uvicorn, with streams and long polls ended as soon as it is told to stop."""
+
+    def __init__(self, app: FastAPI, log_level: str) -> None:
+        config = uvicorn.Config(
+            app,
+            lifespan="on",
+            log_level=log_level,
+            access_log=False,
+            server_header=False,
+            proxy_headers=False,
+            ws_max_size=MESSAGE_BYTES,
+            timeout_graceful_shutdown=GRACE_SECONDS,
+        )
+        super().__init__(config)
+        self._app = app
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Wake whoever waits, so that their requests end, and shut down."""
+        self._app.state.context.hub.close()
+        await super().shutdown(sockets)
+
+
+@dataclass(frozen=True)
+class Served:
+    """A running server: where it is, and its store."""
+
+    url: str
+    db: Database
+
+
+def bind(host: str, port: int) -> socket.socket:
+    """Return a listening socket; port 0 takes a free one.
+
+    Raises:
+        CannotServe: if the address cannot be had.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    bound = socket.socket(family, socket.SOCK_STREAM)
+    bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        bound.bind((host, port))
+        bound.listen(1_024)
+    except OSError as error:
+        bound.close()
+        raise CannotServe(f"Cannot listen on {host}:{port} ({error.strerror}); choose another --port.") from None
+    return bound
+
+
+def url_of(bound: socket.socket) -> str:
+    """Return the address a browser on this machine can open."""
+    host, port = bound.getsockname()[:2]
+    host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)  # noqa: S104 - compared, not bound
+    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
+
+
+@contextmanager
+def background(settings: Settings, host: str = "127.0.0.1", port: int = 0) -> Iterator[Served]:
+    """Serve on a thread for as long as the context lasts.
+
+    Raises:
+        CannotServe, BadDatabase, NewerStore: with one sentence for the user.
+    """
+    Database(settings.database).close()  # what is wrong with it is said here, not in the thread's log
+    app = create_app(settings)
+    server = Server(app, "warning")
+    with closing(bind(host, port)) as bound:
+        thread = threading.Thread(target=server.run, args=([bound],), name="waypost-serve", daemon=True)
+        thread.start()
+        try:
+            _wait_for_start(server, thread)
+            yield Served(url_of(bound), app.state.context.db)
+        finally:
+            server.should_exit = True
+            thread.join()
+
+
+def _wait_for_start(server: Server, thread: threading.Thread) -> None:
+    while not server.started:
+        thread.join(0.01)
+        if not thread.is_alive():
+            raise CannotServe("The server did not start; its log says why.")
+
+
+def foreground(app: FastAPI, bound: socket.socket, log_level: str = "warning") -> None:
+    """Serve until the process is told to stop."""
+    Server(app, log_level).run([bound])

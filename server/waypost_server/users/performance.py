@@ -1,0 +1,102 @@
+"""Annotators' own numbers: how much, how fast, and how far right where it is known what is. Counted in SQL."""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from typing import Any
+
+from sqlalchemy import Row, Select, and_, case, func, select
+
+from waypost import wire
+from waypost.prices import to_units
+from waypost_server.db.engine import Tx
+from waypost_server.db.tables import answers, probes, queries, users
+from waypost_server.users.service import DAY
+
+WEEK_DAYS = 7
+
+
+def _by_kind(midnight: float) -> Select[Any]:
+    """Return a row per annotator and kind; `midnight` began the day."""
+    mine = (answers.c.user_id, queries.c.kind)
+    given = (
+        select(answers.c.user_id, queries.c.kind, answers.c.units, answers.c.seconds, answers.c.created_at)
+        .add_columns(probes.c.n_labels, probes.c.n_right)
+        .add_columns(func.row_number().over(order_by=answers.c.seconds, partition_by=mine).label("rank"))
+        .add_columns(func.count().over(partition_by=mine).label("n"))
+        .join(queries, queries.c.answer_id == answers.c.id)
+        .outerjoin(probes, probes.c.query_id == queries.c.id)
+        .subquery()
+    )
+    today, week = given.c.created_at >= midnight, given.c.created_at >= midnight - (WEEK_DAYS - 1) * DAY
+    in_the_middle = and_(2 * given.c.rank >= given.c.n, 2 * given.c.rank <= given.c.n + 2)  # one row, or two
+    return (
+        select(
+            given.c.user_id, users.c.name, given.c.kind, func.count().label("n"), func.sum(given.c.units).label("units")
+        )
+        .add_columns(func.count().filter(today).label("n_today"), _units_where(given, today).label("units_today"))
+        .add_columns(func.count().filter(week).label("n_week"), _units_where(given, week).label("units_week"))
+        .add_columns(func.avg(case((in_the_middle, given.c.seconds))).label("median"))
+        .add_columns(func.count(given.c.n_labels).label("gold"))
+        .add_columns(func.count().filter(given.c.n_right == given.c.n_labels).label("gold_right"))
+        .add_columns(func.coalesce(func.sum(given.c.n_labels), 0).label("n_labels"))
+        .add_columns(func.coalesce(func.sum(given.c.n_right), 0).label("n_right"))
+        .join(users, users.c.id == given.c.user_id)
+        .group_by(given.c.user_id, users.c.name, given.c.kind)
+        .order_by(users.c.name, given.c.kind)
+    )
+
+
+def _units_where(given: Any, condition: Any) -> Any:
+    return func.coalesce(func.sum(case((condition, given.c.units), else_=0)), 0)
+
+
+def of_user(tx: Tx, user: int) -> wire.Numbers:
+    """Return an annotator's numbers; all zero for who has answered nothing."""
+    name = tx.conn.execute(select(users.c.name).where(users.c.id == user)).scalar_one()
+    rows = tx.conn.execute(_by_kind(_midnight(tx)).where(users.c.id == user)).all()
+    return _numbers(user, name, rows)
+
+
+def of_everyone(tx: Tx) -> wire.NumbersList:
+    """Return the numbers of all who ever answered, by name."""
+    people: dict[tuple[int, str], list[Row[Any]]] = defaultdict(list)
+    for row in tx.conn.execute(_by_kind(_midnight(tx))):
+        people[row.user_id, row.name].append(row)
+    return wire.NumbersList(annotators=[_numbers(user, name, rows) for (user, name), rows in people.items()])
+
+
+def _midnight(tx: Tx) -> float:
+    return tx.now - tx.now % DAY
+
+
+def _numbers(user: int, name: str, rows: Sequence[Row[Any]]) -> wire.Numbers:
+    return wire.Numbers(
+        user=user,
+        name=name,
+        total=_tally(rows, "n", "units"),
+        today=_tally(rows, "n_today", "units_today"),
+        week=_tally(rows, "n_week", "units_week"),
+        gold=sum(row.gold for row in rows),
+        agreement=_agreement(rows),
+        by_kind=[
+            wire.NumbersOfKind(
+                kind=row.kind,
+                total=_tally([row], "n", "units"),
+                median_seconds=row.median,
+                gold=row.gold,
+                gold_right=row.gold_right,
+                agreement=_agreement([row]),
+            )
+            for row in rows
+        ],
+    )
+
+
+def _tally(rows: Sequence[Row[Any]], n: str, units: str) -> wire.Tally:
+    micro = sum(int(row._mapping[units]) for row in rows)
+    return wire.Tally(answers=sum(row._mapping[n] for row in rows), units=to_units(micro))
+
+
+def _agreement(rows: Sequence[Row[Any]]) -> float | None:
+    n_labels = sum(int(row.n_labels) for row in rows)
+    return sum(int(row.n_right) for row in rows) / n_labels if n_labels else None
