@@ -9,7 +9,10 @@ const target = fileURLToPath(new URL('src/api/schema.d.ts', import.meta.url));
 const venv = `${root}.venv/bin/python`;
 const python = process.env.PYTHON ?? (existsSync(venv) ? venv : 'python3');
 
-const document = execFileSync(python, ['-m', 'waypost_server.openapi'], { cwd: root, maxBuffer: 64 * 2 ** 20 });
+const document = execFileSync(python, ['-m', 'waypost_server.http.openapi'], {
+  cwd: root,
+  maxBuffer: 64 * 2 ** 20,
+});
 const header = "/** Generated from the server's OpenAPI document by `npm run types`. Do not edit. */\n\n";
 const schema = header + astToString(await openapiTS(JSON.parse(document.toString())));
 

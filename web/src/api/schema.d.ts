@@ -1513,6 +1513,8 @@ export interface components {
             token: string;
             query: components["schemas"]["Query"];
             run: components["schemas"]["Run"];
+            /** @description What the answer will cost. */
+            price: components["schemas"]["Price"];
             /** Leased At */
             leased_at: number;
             /** Expires At */
@@ -2398,6 +2400,20 @@ export interface components {
             id: number;
             /** Ask */
             ask: components["schemas"]["AskHierDemo"] | components["schemas"]["AskInspectFull"] | components["schemas"]["AskLabelHi"] | components["schemas"]["AskInspectLo"] | components["schemas"]["AskLabelLo"] | components["schemas"]["AskLabelFull"];
+        };
+        /**
+         * Price
+         * @description The price of an answer: `fixed` + `per_action` x its actions + `per_segment` x its segments, in units.
+         *
+         *     Only the price of a demonstration depends on the answer; every other kind has a `fixed` price.
+         */
+        Price: {
+            /** Fixed */
+            fixed: number;
+            /** Per Action */
+            per_action: number;
+            /** Per Segment */
+            per_segment: number;
         };
         /**
          * Prices

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import type { AskOf, PlayStates, Prices } from '../api/types';
+import type { AskOf, PlayStates, Price } from '../api/types';
 import * as demos from './demonstration';
 import type { Demonstration, Move } from './demonstration';
 
@@ -11,7 +11,7 @@ const ask = {
   max_actions: 4,
 } as AskOf<'hier_demo'>;
 const flat = { ...ask, flat: true };
-const prices: Prices = { subgoal: 10, action: 1, termination: 100, inspect_full: 0, inspect_lo: 0 };
+const price: Price = { fixed: 0, per_action: 1, per_segment: 110 };
 
 const north: Move = { does: 'choose', subgoal: 'north' };
 const east: Move = { does: 'choose', subgoal: 'east' };
@@ -53,9 +53,10 @@ describe('a demonstration', () => {
   });
 
   it('costs a label per action, subgoal and termination; a flat one its actions', () => {
-    expect(demos.costOf(played(north, up, up, reach, east, right), prices)).toBe(3 + 2 * 110);
-    expect(demos.costOf(played(up, right), prices)).toBe(2);
-    expect(demos.costOf(played(north), prices)).toBe(0);
+    expect(demos.costOf(played(north, up, up, reach, east, right), price)).toBe(3 + 2 * 110);
+    expect(demos.costOf(played(up, right), price)).toBe(2);
+    expect(demos.costOf(played(north), price)).toBe(0);
+    expect(demos.costOf(played(north, up), { fixed: 5, per_action: 1, per_segment: 110 })).toBe(5 + 1 + 110);
   });
 });
 

@@ -1,4 +1,4 @@
-import type { AnswerOf, AskOf, DemoSegment, Json, PlayStates, Prices } from '../api/types';
+import type { AnswerOf, AskOf, DemoSegment, Json, PlayStates, Price } from '../api/types';
 import type { Stretch, Tape } from '../player/tape';
 
 /** One thing a person did. A demonstration is the list of them, so that each can be taken back, starting over too. */
@@ -105,12 +105,12 @@ export function learn(demonstration: Demonstration, news: PlayStates): Demonstra
   return { moves, states, pictures, ended, succeeded };
 }
 
-/** What an answer with these segments costs, in units; the server's own reckoning is what counts. */
-export function costOf(demonstration: Demonstration, prices: Prices): number {
+/** Return what the demonstration costs as an answer, in units, at the server's price. */
+export function costOf(demonstration: Demonstration, price: Price): number {
   const segments = segmentsOf(demonstration);
   const actions = segments.reduce((sum, segment) => sum + segment.actions.length, 0);
   const hierarchical = segments.filter((segment) => segment.subgoal !== null).length;
-  return actions * prices.action + hierarchical * (prices.subgoal + prices.termination);
+  return price.fixed + price.per_action * actions + price.per_segment * hierarchical;
 }
 
 /** The answer, once there is a step and every step has its state. */

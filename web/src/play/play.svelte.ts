@@ -1,5 +1,5 @@
 import { readable } from '../api/names';
-import type { AnswerOf, AskOf, PlayMoves, PlayStates, Prices, Vocabulary } from '../api/types';
+import type { AnswerOf, AskOf, PlayMoves, PlayStates, Price, Vocabulary } from '../api/types';
 import { bindingsFor, type Command } from '../keys/registry';
 import type { Scene } from '../player/scene';
 import * as demos from './demonstration';
@@ -11,7 +11,7 @@ export interface PlayOptions {
   readonly drafts: PlayDrafts;
   readonly ask: AskOf<'hier_demo'>;
   readonly vocabulary: Vocabulary;
-  readonly prices: Prices;
+  readonly price: Price;
 }
 
 export interface PlayEvents {
@@ -33,7 +33,7 @@ export class Play {
   readonly bindings;
   readonly parts = $derived.by(() => demos.partsOf(this.demonstration));
   readonly steps = $derived.by(() => demos.countActions(this.parts));
-  readonly cost = $derived.by(() => demos.costOf(this.demonstration, this.#options.prices));
+  readonly cost = $derived.by(() => demos.costOf(this.demonstration, this.#options.price));
   readonly scene: Scene = $derived.by(() => this.#scene());
 
   readonly #options: PlayOptions;

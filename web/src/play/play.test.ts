@@ -1,6 +1,6 @@
 // @vitest-environment happy-dom
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { Answer, AskOf, PlayMoves, Prices, Vocabulary } from '../api/types';
+import type { Answer, AskOf, PlayMoves, Price, Vocabulary } from '../api/types';
 import { PlayDrafts } from './drafts';
 import { Play } from './play.svelte';
 
@@ -17,7 +17,7 @@ const vocabulary: Vocabulary = {
   subgoals: ['door', 'target'],
   actions: ['left', 'right'],
 };
-const prices: Prices = { subgoal: 1, action: 1, termination: 1, inspect_full: 1, inspect_lo: 1 };
+const price: Price = { fixed: 0, per_action: 1, per_segment: 2 };
 const GOAL = 3;
 
 /** The page's side beside a learner who walks a line; it answers when it is asked to. */
@@ -33,7 +33,7 @@ class Table {
         drafts: new PlayDrafts(sessionStorage),
         ask: { ...ask, ...more },
         vocabulary,
-        prices,
+        price,
       },
       {
         tell: (moves) => this.told.push(moves),

@@ -1,7 +1,12 @@
 import { api, unwrap, wordsOf } from '../api/client';
-import type { Answer, Answerable, Assignment, Feedback, Practice, Run } from '../api/types';
+import type { Answer, Answerable, Feedback, Practice, Vocabulary } from '../api/types';
 
 export type Phase = 'loading' | 'intro' | 'question' | 'feedback' | 'done' | 'failed';
+
+interface PracticeQuery {
+  readonly id: number;
+  readonly ask: Answerable;
+}
 
 /** Somebody practicing: one question after the other, each followed by what was right. Nothing is stored. */
 export class PracticeSession {
@@ -13,11 +18,10 @@ export class PracticeSession {
   results: readonly boolean[] = $state.raw([]); // by place, of this round
   #practice: Practice | null = $state.raw(null);
 
-  readonly total = $derived(this.#asks().length);
+  readonly total = $derived(this.#queries().length);
   readonly right = $derived(this.results.filter(Boolean).length);
-  readonly ask: Answerable | null = $derived(this.#asks()[this.place]?.ask ?? null);
-  /** The question, as the work view is given one. */
-  readonly assignment: Assignment | null = $derived(this.#assignment());
+  readonly query: PracticeQuery | null = $derived(this.#queries()[this.place] ?? null);
+  readonly vocabulary: Vocabulary | null = $derived(this.#practice?.vocabulary ?? null);
 
   async load(): Promise<void> {
     this.phase = 'loading';
@@ -37,10 +41,9 @@ export class PracticeSession {
   }
 
   async submit(answer: Answer): Promise<void> {
-    const query = this.#asks()[this.place]?.id;
-    if (query === undefined || this.phase !== 'question') return;
+    if (this.query === null || this.phase !== 'question') return;
     try {
-      const params = { path: { query } };
+      const params = { path: { query: this.query.id } };
       this.feedback = await unwrap(api.POST('/api/v1/practice/{query}', { params, body: { answer } }));
       this.results = [...this.results.slice(0, this.place), this.feedback.is_right];
       this.problem = null;
@@ -75,55 +78,8 @@ export class PracticeSession {
   }
 
   /** Demonstrations need a learner's environment, so there are none here. */
-  #asks(): readonly { id: number; ask: Answerable }[] {
+  #queries(): readonly PracticeQuery[] {
     const queries = this.#practice?.queries ?? [];
     return queries.flatMap(({ id, ask }) => (ask.kind === 'hier_demo' ? [] : [{ id, ask }]));
   }
-
-  #assignment(): Assignment | null {
-    if (this.#practice === null || this.ask === null) return null;
-    const query = {
-      id: -this.shown, // no query of the server's, and no other showing's draft
-      run: '',
-      state: 'leased' as const,
-      priority: 0,
-      created_at: 0,
-      ask: this.ask,
-      answer: null,
-      answer_id: null,
-      used: false,
-      annotator: null,
-      units: null,
-      seconds: null,
-      active_seconds: null,
-    };
-    const run = rehearsal(this.#practice);
-    return { id: query.id, token: '', query, run, leased_at: 0, expires_at: 0, lease_seconds: 0 };
-  }
-}
-
-/** A run in which nothing costs anything. */
-function rehearsal({ vocabulary }: Practice): Run {
-  return {
-    id: '',
-    name: 'practice',
-    algorithm: '',
-    seed: 0,
-    state: 'running',
-    priority: 0,
-    vocabulary,
-    config: {},
-    prices: { subgoal: 0, action: 0, termination: 0, inspect_full: 0, inspect_lo: 0 },
-    budget: null,
-    reserved: 0,
-    spent: 0,
-    episodes: null,
-    episodes_done: 0,
-    success_rate: null,
-    open_queries: 0,
-    gold_rate: 0,
-    result: null,
-    created_at: 0,
-    finished_at: null,
-  };
 }

@@ -1,4 +1,4 @@
-import type { Answer, Answerable, Run } from '../api/types';
+import type { Answer, Answerable, Vocabulary } from '../api/types';
 import { bindingsFor, type Command } from '../keys/registry';
 import { answerOf, choose, EDITS, HINTS, moveTo, newLabels, type Labels } from '../labels/labels';
 import { markFirstWrong, type LoLabels } from '../labels/lo';
@@ -9,9 +9,9 @@ import type { Label, Scene } from '../player/scene';
 import { draftOf, keepDraft } from '../labels/drafts';
 
 export interface TaskOptions {
-  readonly query: number;
   readonly ask: Answerable;
-  readonly run: Run;
+  readonly vocabulary: Vocabulary;
+  readonly draft: number | null; // what the labels are kept under; null: not kept
   readonly speed: number;
   readonly still: boolean; // nothing moves unless asked to
 }
@@ -40,15 +40,15 @@ export class Task {
   #firstShowing = false;
 
   constructor(options: TaskOptions, events: TaskEvents) {
-    const { ask, run } = options;
+    const { ask, vocabulary, draft } = options;
     this.#options = options;
     this.#events = events;
     this.ask = ask;
     this.tape = buildTape(ask.context, ask.segments);
     this.stops = stops(this.tape);
-    this.bindings = bindingsFor(ask.kind, run.vocabulary);
+    this.bindings = bindingsFor(ask.kind, vocabulary);
     this.#frames = askedFrames(this.tape);
-    this.labels = draftOf(options.query) ?? newLabels(ask);
+    this.labels = (draft === null ? undefined : draftOf(draft)) ?? newLabels(ask);
     this.player = this.#firstLook();
     this.#showCursor();
   }
@@ -97,7 +97,7 @@ export class Task {
   }
 
   #choose(index: number): void {
-    this.#edit((labels) => choose(labels, index, this.#options.run.vocabulary), HINTS.choose);
+    this.#edit((labels) => choose(labels, index, this.#options.vocabulary), HINTS.choose);
   }
 
   #submitAll(): void {
@@ -110,7 +110,7 @@ export class Task {
     const next = change(this.labels);
     if (next === this.labels) this.hint = hint;
     this.labels = next;
-    keepDraft(this.#options.query, next);
+    if (this.#options.draft !== null) keepDraft(this.#options.draft, next);
     this.#showCursor();
   }
 
@@ -155,7 +155,7 @@ export class Task {
     return {
       instance: ask.instance,
       tape,
-      vocabulary: this.#options.run.vocabulary,
+      vocabulary: this.#options.vocabulary,
       at,
       current,
       labels: marks,
