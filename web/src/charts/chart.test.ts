@@ -23,14 +23,21 @@ describe('axes', () => {
     [0, 1, 5, [0, 0.2, 0.4, 0.6, 0.8, 1]],
     [0, 500, 5, [0, 100, 200, 300, 400, 500]],
     [3, 17, 4, [5, 10, 15]],
-    [0, 0.07, 5, [0, 0.02, 0.04, 0.06]],
+    [0, 0.07, 5, [0, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07]],
+    [0, 0.08, 4, [0, 0.02, 0.04, 0.06, 0.08]],
     [7, 7, 5, [7]],
   ])('from %f to %f have round ticks', (low, high, count, expected) => {
     expect(ticks(low, high, count)).toEqual(expected);
   });
 
+  it.each([3, 4, 5, 6])('have enough ticks wherever they end: 0 to 999 in about %i', (count) => {
+    const found = ticks(0, 999, count).length;
+    expect(found).toBeGreaterThanOrEqual(count - 1);
+    expect(found).toBeLessThanOrEqual(2 * count);
+  });
+
   it('of episodes have no half ones', () => {
-    expect(ticks(0, 2, 6, 1)).toEqual([0, 1, 2]);
+    expect(ticks(0, 2, 6, true)).toEqual([0, 1, 2]);
   });
 
   it('hold all that is drawn', () => {
@@ -52,13 +59,13 @@ describe('axes', () => {
 
 describe('lines', () => {
   it('break where nothing is known', () => {
-    expect(linePath({ x: [0, 1, 2, 3] }, [1, null, 2, 3], same, same)).toBe('M0 1M2 2L3 3');
+    expect(linePath({ x: [0, 1, 2, 3] }, [1, null, 2, 3], same, same)).toBe('M0,1ZM2,2L3,3');
   });
 
   it('hold each value until the next where they are steps', () => {
     const series = { x: [0, 2], steps: true };
-    expect(linePath(series, [1, 3], same, same)).toBe('M0 1H2V3');
-    expect(areaPath(series, [0, 0], [1, 3], same, same)).toBe('M0 1L2 1L2 3L2 0L2 0L0 0Z');
+    expect(linePath(series, [1, 3], same, same)).toBe('M0,1L2,1L2,3');
+    expect(areaPath(series, [0, 0], [1, 3], same, same)).toBe('M0,1L2,1L2,3L2,0L2,0L0,0Z');
   });
 
   it('keep their peaks where many rows fall on a pixel', () => {

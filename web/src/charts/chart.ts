@@ -1,4 +1,7 @@
-// What a chart is, as plain values; Chart.svelte draws it as SVG, which is also what is downloaded.
+// A chart as plain values: marks, axes, paths and readings. Chart.svelte draws it as SVG; the download is the same SVG.
+import { scaleLinear } from 'd3-scale';
+import { area, curveLinear, curveStepAfter, line, type CurveFactory } from 'd3-shape';
+import { SUBGOAL_COLORS } from '../style/subgoals';
 
 /** How a series is told from others: by color, and without it by dash and marker. */
 export interface Mark {
@@ -22,39 +25,28 @@ export interface Series {
 
 const DASHES = ['', '7 4', '2 3', '10 3 2 3', '5 2', '12 4', '1 4', '8 3 2 3 2 3'];
 const MARKERS: readonly Marker[] = ['circle', 'square', 'triangle', 'diamond', 'flag', 'cross'];
-const COLORS = 8;
 
 /** The marks in their order: eight colors, dashes and six shapes, so that no two of 24 are the same. */
 export function markOf(index: number): Mark {
   return {
-    color: `subgoal-${index % COLORS}`,
+    color: `subgoal-${index % SUBGOAL_COLORS}`,
     dash: DASHES[index % DASHES.length] ?? '',
     marker: MARKERS[index % MARKERS.length] ?? 'circle',
   };
 }
 
-export interface Scale {
-  (value: number): number;
+/** Where a value is on the screen, in pixels. */
+export type ToPixel = (value: number) => number;
+
+/** Return the function that maps low..high onto from..to. */
+export function scale(low: number, high: number, from: number, to: number): ToPixel {
+  return scaleLinear([low, high > low ? high : low + 1], [from, to]);
 }
 
-/** Maps low..high onto from..to. */
-export function scale(low: number, high: number, from: number, to: number): Scale {
-  const factor = high > low ? (to - from) / (high - low) : 0;
-  return (value) => from + (value - low) * factor;
-}
-
-/** Round numbers from `low` to `high`, about `count` of them, at least `apart` from each other. */
-export function ticks(low: number, high: number, count: number, apart = 0): number[] {
-  if (!(high > low) || count < 1) return [low];
-  const rough = Math.max((high - low) / count, apart);
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const unit = [1, 2, 5, 10].find((one) => one * power >= rough * 0.999) ?? 10;
-  const step = unit * power;
-  const first = Math.ceil(low / step - 1e-9);
-  const last = Math.floor(high / step + 1e-9);
-  return Array.from({ length: last - first + 1 }, (_, index) =>
-    Number(((first + index) * step).toPrecision(12)),
-  );
+/** Return round numbers from `low` to `high`, about `count` of them; `whole`: no fractions. */
+export function ticks(low: number, high: number, count: number, whole = false): number[] {
+  const found = scaleLinear([low, high], [0, 1]).ticks(count);
+  return whole ? found.filter(Number.isInteger) : found;
 }
 
 /** What the axes must hold: x and y from 0 (or the least x) to the largest of any series. */
@@ -74,7 +66,7 @@ export function extent(series: readonly Series[]): { x: [number, number]; y: num
 export function thinned(
   x: readonly number[],
   y: readonly (number | null)[],
-  toPixel: Scale,
+  toPixel: ToPixel,
 ): readonly number[] {
   const all = Array.from(x, (_, row) => row);
   const columns = toPixel(x.at(-1) ?? 0) - toPixel(x[0] ?? 0);
@@ -100,56 +92,37 @@ function groups(rows: readonly number[], key: (row: number) => number): number[]
   return found;
 }
 
-type Point = readonly [number, number];
-
-/** A series as the data of an SVG path; a value that is not known breaks the line. */
+/** Return a series as the data of an SVG path; an unknown value breaks the line. */
 export function linePath(
   series: Pick<Series, 'x' | 'steps'>,
   y: readonly (number | null)[],
-  toX: Scale,
-  toY: Scale,
+  toX: ToPixel,
+  toY: ToPixel,
 ): string {
-  const parts: string[] = [];
-  let before: Point | null = null;
-  for (const row of thinned(series.x, y, toX)) {
-    const value = y[row];
-    if (value === null || value === undefined) {
-      before = null;
-      continue;
-    }
-    const here: Point = [round(toX(series.x[row] ?? 0)), round(toY(value))];
-    if (before === null) parts.push(`M${here[0]} ${here[1]}`);
-    else if (series.steps) parts.push(`H${here[0]}V${here[1]}`);
-    else parts.push(`L${here[0]} ${here[1]}`);
-    before = here;
-  }
-  return parts.join('');
+  const path = line<number>()
+    .defined((row) => typeof y[row] === 'number')
+    .x((row) => toX(series.x[row] ?? 0))
+    .y((row) => toY(y[row] ?? 0));
+  return path.curve(curveOf(series)).digits(2)(thinned(series.x, y, toX)) ?? '';
 }
 
-/** What lies between two lines, as the data of an SVG path. */
+/** Return the area between two lines as the data of an SVG path. */
 export function areaPath(
   series: Pick<Series, 'x' | 'steps'>,
   low: readonly number[],
   high: readonly number[],
-  toX: Scale,
-  toY: Scale,
+  toX: ToPixel,
+  toY: ToPixel,
 ): string {
-  const rows = thinned(series.x, high, toX);
-  if (rows.length === 0) return '';
-  const edge = (values: readonly number[]): Point[] => {
-    const points = rows.map((row): Point => [round(toX(series.x[row] ?? 0)), round(toY(values[row] ?? 0))]);
-    return series.steps ? withCorners(points) : points;
-  };
-  const around = [...edge(high), ...edge(low).reverse()];
-  return `M${around.map(([x, y]) => `${x} ${y}`).join('L')}Z`;
+  const path = area<number>()
+    .x((row) => toX(series.x[row] ?? 0))
+    .y0((row) => toY(low[row] ?? 0))
+    .y1((row) => toY(high[row] ?? 0));
+  return path.curve(curveOf(series)).digits(2)(thinned(series.x, high, toX)) ?? '';
 }
 
-/** Each value holds until the next: a corner before every point but the first. */
-function withCorners(points: readonly Point[]): Point[] {
-  return points.flatMap((point, index): Point[] => {
-    const before = points[index - 1];
-    return before === undefined ? [point] : [[point[0], before[1]], point];
-  });
+function curveOf({ steps }: Pick<Series, 'steps'>): CurveFactory {
+  return steps ? curveStepAfter : curveLinear;
 }
 
 /** All x where any series has a value, each once, rising: where the reading stops. */
@@ -204,7 +177,7 @@ export function spread(wanted: readonly number[], gap: number, low: number, high
 }
 
 /** Rows at which a line carries its marker: a few, shifted from series to series. */
-export function markerRows(series: Pick<Series, 'x'>, index: number, toX: Scale, every = 130): number[] {
+export function markerRows(series: Pick<Series, 'x'>, index: number, toX: ToPixel, every = 130): number[] {
   const rows: number[] = [];
   let next = toX(series.x[0] ?? 0) + every * (0.35 + 0.17 * (index % 5));
   series.x.forEach((x, row) => {
@@ -233,8 +206,4 @@ export function sampleRows(length: number, most: number): number[] {
   if (length <= most) return Array.from({ length }, (_, row) => row);
   const stride = (length - 1) / (most - 1);
   return Array.from({ length: most }, (_, index) => Math.round(index * stride));
-}
-
-function round(value: number): number {
-  return Math.round(value * 100) / 100;
 }
