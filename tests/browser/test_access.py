@@ -136,7 +136,7 @@ def test_nothing_is_cut_off(open_page: Open, learner: Learner, size: tuple[int, 
     learner.ask(run, ask("inspect_lo"))
     page = open_page(f"/work?run={run}", size={"width": size[0], "height": size[1]})
     wait_for_heading(page, ask("inspect_lo")["question"])
-    for name in ("Pass", "Fail", "Skip", "Undo"):
+    for name in ("Pass", "Fail", "Skip", "Take back"):
         expect(page.get_by_role("button", name=name)).to_be_in_viewport(ratio=1)
     expect(page.get_by_role("slider", name="Step")).to_be_in_viewport(ratio=1)
     assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")

@@ -243,7 +243,7 @@ def test_every_key_of_a_mode_is_in_the_help(open_page: Open, learner: Learner) -
     wait_for_heading(page, ask("label_hi")["question"])
     press(page, "?")
     dialog = page.get_by_role("dialog", name="Keys")
-    for words in ("go to target", "Play or pause", "Undo my last answer", "Skip, with a reason"):
+    for words in ("go to target", "Play or pause", "Take back my last answer", "Skip, with a reason"):
         expect(dialog.get_by_text(words)).to_be_visible()
     press(page, "n", "Escape")  # the keys rest while the dialog is open
     expect(dialog).to_be_hidden()

@@ -38,7 +38,7 @@ def test_an_administrator_lets_somebody_in_and_sends_them_away(
     wait_for_heading(zoe, "Waiting for the learner")
     admin.get_by_role("link", name="zoe of the lab").click()
     admin.get_by_role("combobox", name="Role").select_option("viewer")
-    expect(admin.get_by_text("Sees everything but people, and changes nothing.")).to_be_visible()
+    expect(admin.get_by_text("Sees everything except people, and changes nothing.")).to_be_visible()
     expect(zoe.get_by_role("heading", name="This account cannot answer queries")).to_be_visible()
     assert link.partition("#")[2] not in admin.content()
     admin.get_by_role("button", name="Deactivate").click()
@@ -106,7 +106,7 @@ def test_somebody_new_practices_by_keyboard(open_page: Open, served: Served, lea
     page.get_by_role("button", name="Again").click()
     wait_for_heading(page, "Was the whole task accomplished?")
     assert learner.call("GET", f"/runs/{run}/costs")["total"] == 0
-    page.get_by_role("link", name="Leave for work").click()
+    page.get_by_role("link", name="Go to work").click()
     wait_for_heading(page, "Waiting for the learner")
     expect(page.get_by_text("0 answers")).to_be_visible()
 

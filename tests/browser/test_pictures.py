@@ -135,7 +135,7 @@ def test_pictures_show_where_each_subgoal_was_decided_and_are_accessible(
         run = ask_label_hi(client)
     page = open_page(f"/work?run={run}", scheme=scheme)
     wait_for_heading(page, LABEL_HI)
-    strip = page.get_by_role("list", name="Where each subgoal was decided").get_by_role("listitem")
+    strip = page.get_by_role("list", name="Where each subgoal was chosen").get_by_role("listitem")
     expect(strip).to_have_text(["1E", "2W", "3T"])
     page.keyboard.press("ArrowDown")
     expect(strip.nth(1)).to_have_attribute("aria-current", "step")

@@ -110,13 +110,13 @@ def test_a_demonstration_is_played_with_the_keyboard(open_page: Open, learner: L
     press(page, "s", "n")  # another choice before the first step
     walk(page, "uu")
     press(page, "w")
-    expect(page.get_by_text("First say that the last subgoal is reached.")).to_be_visible()
+    expect(page.get_by_text("First press “Reached” for the last subgoal.")).to_be_visible()
     walk(page, "l")
     press(page, "Backspace")
     walk(page, "u")
     expect(page.get_by_text("this answer costs 5 units")).to_be_visible()  # 3 steps, a subgoal, a termination
     press(page, "Shift+Backspace")
-    expect(page.get_by_text("Nothing is played yet.")).to_be_visible()
+    expect(page.get_by_text("No step is played yet.")).to_be_visible()
     press(page, "Backspace", "Enter")
     way(page, WAY[1:-1])
     assert learner.query(query)["state"] == "leased"
@@ -145,7 +145,7 @@ def test_it_goes_on_after_a_reload_and_when_the_learner_was_gone(
     withdraw()
     expect(page.get_by_text("The learner is away.")).to_be_visible()
     walk(page, "r")
-    expect(page.get_by_text("nobody can see where a step leads")).to_be_visible()
+    expect(page.get_by_text("a step cannot be carried out now")).to_be_visible()
     expect(steps(page)).to_have_text("10")
     stage(learner.served, query)
     is_here(page)

@@ -310,7 +310,7 @@ def test_an_answer_after_a_sleep_past_the_lease_is_explained_and_its_labels_are_
         while learner.query(query)["state"] == "leased" and time.monotonic() < deadline:
             page.wait_for_timeout(100)
         page.keyboard.press("Shift+Enter")
-        expect(page.get_by_text("after the time on the query had run out")).to_be_visible()
+        expect(page.get_by_text("after your lease had expired")).to_be_visible()
         wait_for_heading(page, ask("label_hi")["question"])
         expect(page.get_by_text("5 of 5")).to_be_visible()
         page.keyboard.press("Enter")

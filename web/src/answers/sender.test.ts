@@ -24,7 +24,7 @@ describe('the outbox', () => {
     expect(attempted(two, 2).map((kept) => kept.attempts)).toEqual([0, 1]);
   });
 
-  it('outlives a reload, and whatever else is in its place', () => {
+  it('survives a reload, and anything else in its place', () => {
     save(sessionStorage, [pending(1)]);
     expect(load(sessionStorage)).toEqual([pending(1)]);
     save(sessionStorage, []);
@@ -54,7 +54,7 @@ describe('the sender', () => {
   });
   afterEach(() => vi.useRealTimers());
 
-  it('asks for the next query with the answer, and lets go of it with the receipt', async () => {
+  it('asks for the next query with the answer, and drops the answer from the outbox with the receipt', async () => {
     answer.mockResolvedValue(receipt);
     expect(await newAnswerSender().send(pending(1), next)).toBe(receipt);
     expect(answer).toHaveBeenCalledWith(pending(1), next);
@@ -76,7 +76,7 @@ describe('the sender', () => {
     expect(answer.mock.calls.map(([sent]) => sent.key)).toEqual(['k1', 'k1', 'k1']);
   });
 
-  it('loses nothing in an outage of twenty seconds, and sends in order what came meanwhile', async () => {
+  it('loses nothing in an outage of twenty seconds, and sends the answers of that time in order', async () => {
     const backAt = Date.now() + 20_000;
     const stored: number[] = [];
     answer.mockImplementation((sent) => {
@@ -95,7 +95,7 @@ describe('the sender', () => {
     expect(outbox).toEqual([]);
   });
 
-  it('sends what an earlier page left behind, and takes up the query that came with its receipt', async () => {
+  it('sends answers from before a reload, and returns the query that came with the last receipt', async () => {
     save(sessionStorage, [pending(1), pending(2)]);
     const leased = { id: 9 } as unknown as NonNullable<Receipt['next']>;
     answer.mockResolvedValueOnce(receipt).mockResolvedValueOnce({ ...receipt, next: leased });
@@ -107,7 +107,7 @@ describe('the sender', () => {
     expect(outbox).toEqual([]);
   });
 
-  it('stops at the first that cannot be sent, so that the order stays', async () => {
+  it('stops at the first answer that cannot be sent, so that the order is kept', async () => {
     save(sessionStorage, [pending(1), pending(2)]);
     answer.mockRejectedValue(new Unreachable());
     expect(await newAnswerSender().flush(next)).toBeNull();
@@ -115,7 +115,7 @@ describe('the sender', () => {
     expect(outbox).toHaveLength(2);
   });
 
-  it('says so when an answer is refused, and does not send it again', async () => {
+  it('tells the listener when an answer is refused, and does not send it again', async () => {
     const late = new Refused(409, { type: '/problems/lease-expired', detail: 'Too late.' });
     answer.mockRejectedValue(late);
     expect(await newAnswerSender().send(pending(1), next)).toBeNull();

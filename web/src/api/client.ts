@@ -1,9 +1,10 @@
+// The client of the server's REST API, and the two ways in which a request fails.
 import createClient from 'openapi-fetch';
 import type { components, paths } from './schema';
 
 type Problem = components['schemas']['Problem'];
 
-/** The server said no. `name` is the stable name of the problem, such as `lease-expired`. */
+/** The server refused the request. `name` is the stable name of the problem, such as `lease-expired`. */
 export class Refused extends Error {
   readonly status: number;
   override readonly name: string;
@@ -15,7 +16,7 @@ export class Refused extends Error {
   }
 }
 
-/** The server could not be reached, or failed in a way that passes. */
+/** The server could not be reached, or failed in a way that may not last. */
 export class Unreachable extends Error {}
 
 export const api = createClient<paths>({ baseUrl: '/' });
@@ -26,7 +27,7 @@ interface Reply<T> {
   response: Response;
 }
 
-/** The body of a good reply; throws `Refused` or `Unreachable` otherwise. */
+/** Return the body of a successful reply; throw `Refused` or `Unreachable` otherwise. */
 export async function unwrap<T>(call: Promise<Reply<T>>): Promise<T> {
   const reply = await reached(call);
   if (reply.response.ok) return reply.data as T;
@@ -45,7 +46,7 @@ async function reached<T>(call: Promise<Reply<T>>): Promise<Reply<T>> {
   }
 }
 
-/** Too slow, too often, or broken for now: the same request may do later. */
+/** Return whether the same request may succeed later: after a timeout, a rate limit or a server error. */
 function isPassing(status: number): boolean {
   return status === 408 || status === 429 || status >= 500;
 }
@@ -54,7 +55,12 @@ export function isAborted(error: unknown): boolean {
   return error instanceof DOMException && error.name === 'AbortError';
 }
 
-export function wordsOf(error: unknown): string {
-  if (error instanceof Unreachable) return 'The server cannot be reached. Trying again by itself.';
+const UNREACHABLE = 'The server cannot be reached.';
+/** For views that load again without being asked to. */
+export const TRYING_AGAIN = 'The server cannot be reached. The page tries again automatically.';
+
+/** Return what to tell the person about an error. */
+export function wordsOf(error: unknown, unreachable = UNREACHABLE): string {
+  if (error instanceof Unreachable) return unreachable;
   return error instanceof Error ? error.message : String(error);
 }

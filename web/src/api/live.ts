@@ -1,13 +1,14 @@
+// Server-sent events: the changes of one run, or of any run.
 const EVENTS = ['asked', 'answered', 'retracted', 'used', 'cancelled', 'episode', 'run'] as const;
 export type RunEvent = (typeof EVENTS)[number];
 
 export interface Live {
-  /** Something happened, or, with null, may have while nobody listened. */
+  /** Called with each event; with null after a gap in the connection, when events may have been missed. */
   changed(event: RunEvent | null): void;
   connected(isConnected: boolean): void;
 }
 
-/** Hear of every change of a run until the returned function is called. A lost connection is taken up again by itself. */
+/** Report every change of a run until the returned function is called. A lost connection is opened again. */
 export function watch(run: string, live: Live): () => void {
   return stream(`/api/v1/runs/${encodeURIComponent(run)}/events`, (source) => {
     source.onopen = () => {
@@ -19,7 +20,7 @@ export function watch(run: string, live: Live): () => void {
   });
 }
 
-/** Hear that something changed in some run, at most once a second, until the returned function is called. */
+/** Report that some run changed, at most once a second, until the returned function is called. */
 export function watchAll(changed: () => void): () => void {
   return stream('/api/v1/events', (source) => {
     source.onopen = changed;
@@ -29,7 +30,7 @@ export function watchAll(changed: () => void): () => void {
 
 const AGAIN_MS = 5_000;
 
-/** Keep a stream open: a browser gives up for good when something between it and the server answers with an error. */
+/** Keep a stream open. A browser stops reconnecting when a proxy answers with an error; then open a new stream. */
 function stream(address: string, listen: (source: EventSource) => void): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   let source: EventSource;
@@ -47,7 +48,7 @@ function stream(address: string, listen: (source: EventSource) => void): () => v
   };
 }
 
-/** Call at most once per `milliseconds`: at once, and again afterwards if more came meanwhile. */
+/** Return a function that calls at most once per `milliseconds`. Several calls during the wait are one call after it. */
 export function throttled(call: () => Promise<unknown>, milliseconds: number): () => void {
   let [busy, again] = [false, false];
 

@@ -1,8 +1,8 @@
 // What a view loads from the server: the value, or why there is none.
-import { isAborted, Refused, Unreachable, wordsOf } from './client';
+import { isAborted, Refused, TRYING_AGAIN, wordsOf } from './client';
 
 interface Options {
-  /** The view loads again without being asked to, and says so. */
+  /** Whether the view loads again without being asked to; messages say so. */
   readonly live?: boolean;
 }
 
@@ -12,14 +12,12 @@ export class Loaded<T> {
   problem: string | null = $state(null); // what to tell the person
   status: number | null = $state(null); // of the server's refusal
   readonly #fetch: () => Promise<T>;
-  readonly #unreachable: string;
+  readonly #unreachable: string | undefined;
   #turn = 0;
 
   constructor(fetch: () => Promise<T>, { live = false }: Options = {}) {
     this.#fetch = fetch;
-    this.#unreachable = live
-      ? 'The server cannot be reached. The page tries again automatically.'
-      : 'The server cannot be reached.';
+    if (live) this.#unreachable = TRYING_AGAIN;
   }
 
   get isMissing(): boolean {
@@ -53,11 +51,8 @@ export class Loaded<T> {
     return this.load();
   }
 
-  #fail(error: unknown, unreachable: string): void {
-    this.#settle(
-      error instanceof Unreachable ? unreachable : wordsOf(error),
-      error instanceof Refused ? error.status : null,
-    );
+  #fail(error: unknown, unreachable: string | undefined): void {
+    this.#settle(wordsOf(error, unreachable), error instanceof Refused ? error.status : null);
   }
 
   #settle(problem: string | null, status: number | null): void {

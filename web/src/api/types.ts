@@ -1,3 +1,4 @@
+// Short names for the types of the server's messages, which are generated into schema.d.ts.
 import type { components } from './schema';
 
 type Schemas = components['schemas'];
@@ -42,7 +43,7 @@ export type Practice = Schemas['Practice'];
 export type Feedback = Schemas['Feedback'];
 export type Json = Schemas['JsonValue'];
 
-/** The kinds that ask about a trajectory; a demonstration makes one. */
+/** The kinds of query about a trajectory: every kind except the demonstration, which makes one. */
 export const ANSWERABLE = [
   'inspect_full',
   'label_hi',
@@ -53,4 +54,5 @@ export const ANSWERABLE = [
 export type AnswerableKind = (typeof ANSWERABLE)[number];
 export type Answerable = AskOf<AnswerableKind>;
 
+/** All kinds, in the order of the paper's algorithms. */
 export const KINDS = ['hier_demo', ...ANSWERABLE] as const satisfies readonly Kind[];

@@ -1,3 +1,4 @@
+// Starts the page.
 import { mount } from 'svelte';
 import '../style/base.css';
 import App from './App.svelte';

@@ -3,10 +3,10 @@ import { scaleLinear } from 'd3-scale';
 import { area, curveLinear, curveStepAfter, line, type CurveFactory } from 'd3-shape';
 import { SUBGOAL_COLORS } from '../style/subgoals';
 
-/** How a series is told from others: by color, and without it by dash and marker. */
+/** What distinguishes a series: its color and, for people who cannot see the color, its dashes and marker. */
 export interface Mark {
   readonly color: string; // name of a custom property
-  readonly dash: string; // as stroke-dasharray has it; '' for a whole line
+  readonly dash: string; // a stroke-dasharray; '' for a solid line
   readonly marker: Marker;
 }
 export type Marker = 'circle' | 'square' | 'triangle' | 'diamond' | 'flag' | 'cross';
@@ -15,10 +15,10 @@ export interface Series {
   readonly label: string;
   readonly mark: Mark;
   readonly x: readonly number[]; // does not decrease
-  readonly y: readonly (number | null)[]; // what it says
-  readonly top?: readonly number[]; // where it is drawn, if not there
-  readonly low?: readonly number[]; // filled from here ...
-  readonly high?: readonly number[]; // ... to here
+  readonly y: readonly (number | null)[]; // the values
+  readonly top?: readonly number[]; // where the line is drawn, if not at `y`
+  readonly low?: readonly number[]; // the lower edge of the filled area
+  readonly high?: readonly number[]; // its upper edge
   readonly filled?: 'soft' | 'solid';
   readonly steps?: boolean; // each value holds until the next
 }
@@ -26,7 +26,7 @@ export interface Series {
 const DASHES = ['', '7 4', '2 3', '10 3 2 3', '5 2', '12 4', '1 4', '8 3 2 3 2 3'];
 const MARKERS: readonly Marker[] = ['circle', 'square', 'triangle', 'diamond', 'flag', 'cross'];
 
-/** The marks in their order: eight colors, dashes and six shapes, so that no two of 24 are the same. */
+/** Return the mark of the series at a place: of eight colors, eight dashes and six shapes, so that 24 marks all differ. */
 export function markOf(index: number): Mark {
   return {
     color: `subgoal-${index % SUBGOAL_COLORS}`,
@@ -49,7 +49,7 @@ export function ticks(low: number, high: number, count: number, whole = false): 
   return whole ? found.filter(Number.isInteger) : found;
 }
 
-/** What the axes must hold: x and y from 0 (or the least x) to the largest of any series. */
+/** Return the ranges of the axes: x from the smallest to the largest of all series, y from 0 to the largest. */
 export function extent(series: readonly Series[]): { x: [number, number]; y: number } {
   let [low, high, top] = [Infinity, -Infinity, 0];
   for (const one of series) {
@@ -62,7 +62,7 @@ export function extent(series: readonly Series[]): { x: [number, number]; y: num
   return { x: low <= high ? [low, high] : [0, 1], y: top };
 }
 
-/** The rows worth drawing where several fall on one pixel: of each column the first, lowest, highest and last. */
+/** Return the rows to draw. Of rows in the same column of pixels: the first, the lowest, the highest and the last. */
 export function thinned(
   x: readonly number[],
   y: readonly (number | null)[],
@@ -125,12 +125,12 @@ function curveOf({ steps }: Pick<Series, 'steps'>): CurveFactory {
   return steps ? curveStepAfter : curveLinear;
 }
 
-/** All x where any series has a value, each once, rising: where the reading stops. */
+/** Return every x at which some series has a value, ascending. The arrow keys stop there. */
 export function stopsOf(series: readonly Series[]): number[] {
   return [...new Set(series.flatMap((one) => one.x))].sort((a, b) => a - b);
 }
 
-/** The row of a series that holds at x, or null before its first and past its last. */
+/** Return the last row of a series at or before x; null before its first x and after its last. */
 export function rowAt(series: Pick<Series, 'x'>, x: number): number | null {
   if (series.x.length === 0 || x > (series.x.at(-1) ?? x)) return null;
   let [low, high] = [0, series.x.length];
@@ -142,7 +142,7 @@ export function rowAt(series: Pick<Series, 'x'>, x: number): number | null {
   return low === 0 ? null : low - 1;
 }
 
-/** What a series says at x, in words: with its range, where it has one. */
+/** Return the value of a series at x as text, with its range if it has one. */
 export function readingOf(one: Series, x: number, format: (value: number) => string): string {
   const row = rowAt(one, x);
   const value = row === null ? null : one.y[row];
@@ -152,14 +152,14 @@ export function readingOf(one: Series, x: number, format: (value: number) => str
   return low === high ? format(value) : `${format(value)} (${format(low)} to ${format(high)})`;
 }
 
-/** The stop nearest to x. */
+/** Return the number of the stop nearest to x. */
 export function nearest(stops: readonly number[], x: number): number {
   const at = rowAt({ x: [...stops, Infinity] }, x) ?? 0;
   const [before, after] = [stops[at] ?? x, stops[at + 1] ?? Infinity];
   return Math.min(x - before <= after - x ? at : at + 1, stops.length - 1);
 }
 
-/** Where to write labels that want to stand at `wanted`, so that none covers another: in order, `gap` apart. */
+/** Return places for labels, near `wanted` and at least `gap` apart, so that no label covers another. */
 export function spread(wanted: readonly number[], gap: number, low: number, high: number): number[] {
   const order = wanted.map((_, index) => index).sort((a, b) => (wanted[a] ?? 0) - (wanted[b] ?? 0));
   const placed = new Array<number>(wanted.length).fill(0);
@@ -176,7 +176,7 @@ export function spread(wanted: readonly number[], gap: number, low: number, high
   return placed;
 }
 
-/** Rows at which a line carries its marker: a few, shifted from series to series. */
+/** Return the few rows at which a line has its marker; they differ from series to series. */
 export function markerRows(series: Pick<Series, 'x'>, index: number, toX: ToPixel, every = 130): number[] {
   const rows: number[] = [];
   let next = toX(series.x[0] ?? 0) + every * (0.35 + 0.17 * (index % 5));
@@ -201,7 +201,7 @@ export function shapeOf(marker: Marker): string {
   return SHAPES[marker];
 }
 
-/** At most `most` rows, evenly spread, the last one always among them. */
+/** Return at most `most` rows, evenly spread; the last row is always one of them. */
 export function sampleRows(length: number, most: number): number[] {
   if (length <= most) return Array.from({ length }, (_, row) => row);
   const stride = (length - 1) / (most - 1);

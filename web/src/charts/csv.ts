@@ -1,9 +1,10 @@
+// Rows as CSV text.
 export type Cell = string | number | null;
 
-/** As the server's downloads have it: a text that begins like a formula gets an apostrophe before it. */
+/** A text that begins like a formula. It gets an apostrophe before it, as in the server's downloads. */
 const FORMULA = /^[=+\-@\t\r\n\uff1d\uff0b\uff0d\uff20]/;
 
-/** Rows as CSV (RFC 4180). */
+/** Return rows as CSV (RFC 4180). */
 export function toCsv(rows: readonly (readonly Cell[])[]): string {
   return rows.map((row) => `${row.map(cell).join(',')}\r\n`).join('');
 }

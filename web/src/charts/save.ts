@@ -2,7 +2,7 @@
 import { toCsv } from './csv';
 import type { Series } from './chart';
 
-/** What an SVG outside of this page cannot know from its style sheet. */
+/** The styles that are written into a saved SVG, which has no style sheet. */
 const STYLES = [
   'fill',
   'fill-opacity',
@@ -25,7 +25,7 @@ export interface Heading {
   readonly about: string;
 }
 
-/** A drawn chart as a document that looks the same on its own: colors and fonts are written into it. */
+/** Return a drawn chart as an SVG document that looks the same without a style sheet. */
 export function svgDocument(drawn: SVGSVGElement, { title, about }: Heading): string {
   const { width, height } = sizeOf(drawn);
   const copy = drawn.cloneNode(true) as SVGSVGElement;
@@ -35,26 +35,26 @@ export function svgDocument(drawn: SVGSVGElement, { title, about }: Heading): st
     if (original !== undefined) inline(element, getComputedStyle(original));
   });
   for (const passing of copy.querySelectorAll('[data-passing]')) passing.remove();
-  const page = document.createElementNS(NAMESPACE, 'svg');
+  const sheet = document.createElementNS(NAMESPACE, 'svg');
   const [wide, high] = [width + 2 * MARGIN, height + HEAD + MARGIN];
-  set(page, { width: wide, height: high, viewBox: `0 0 ${wide} ${high}` });
+  set(sheet, { width: wide, height: high, viewBox: `0 0 ${wide} ${high}` });
   const style = getComputedStyle(drawn);
   const words = { x: MARGIN + 4, 'font-family': style.fontFamily };
-  page.append(
+  sheet.append(
     made('rect', { width: wide, height: high, fill: style.backgroundColor }),
     made('text', { ...words, y: 20, 'font-size': 14, 'font-weight': 650, fill: style.color }, title),
     made('text', { ...words, y: 37, 'font-size': 12, fill: style.color }, about),
   );
   set(copy, { x: MARGIN, y: HEAD, width, height });
-  page.append(copy);
-  return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(page)}\n`;
+  sheet.append(copy);
+  return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(sheet)}\n`;
 }
 
 export function saveSvg(drawn: SVGSVGElement, heading: Heading): void {
   saveAs(new Blob([svgDocument(drawn, heading)], { type: 'image/svg+xml' }), nameOf(heading, 'svg'));
 }
 
-/** The same picture in pixels, two for each of the screen. */
+/** Save the same picture as a PNG, with two pixels per pixel of the screen. */
 export async function savePng(drawn: SVGSVGElement, heading: Heading): Promise<void> {
   const blob = new Blob([svgDocument(drawn, heading)], { type: 'image/svg+xml' });
   const address = URL.createObjectURL(blob);
@@ -72,7 +72,7 @@ export async function savePng(drawn: SVGSVGElement, heading: Heading): Promise<v
   }
 }
 
-/** What is drawn as numbers: a row per series and value, with the range where there is one. */
+/** Save the values as CSV: a row per series and value, with the range if there is one. */
 export function saveCsv(series: readonly Series[], xName: string, heading: Heading): void {
   const rows = series.flatMap((one) =>
     one.x.map((x, row) => [one.label, x, one.y[row] ?? null, ...ranged(one, row)]),

@@ -1,10 +1,11 @@
+// The learning curves of one run: loaded, and as series of a chart.
 import { api, unwrap } from '../api/client';
 import { KIND_NAMES } from '../api/names';
 import { KINDS, type Curves, type Kind } from '../api/types';
 import { markOf, type Series } from '../charts/chart';
 import { number, seconds } from '../ui/format';
 
-/** The same color for a kind wherever it is drawn. */
+/** The mark of each kind, the same in every chart. */
 const KIND_MARKS: Readonly<Record<Kind, number>> = {
   hier_demo: 5,
   inspect_full: 4,
@@ -14,7 +15,7 @@ const KIND_MARKS: Readonly<Record<Kind, number>> = {
   label_full: 0,
 };
 
-/** What a curve can be drawn against. */
+/** A quantity that a curve can be drawn against. */
 export interface XAxis {
   readonly name: string; // of the axis
   readonly short: string;
@@ -38,7 +39,7 @@ export function xAxisOf(name: string | null): XAxisName {
   return name !== null && Object.hasOwn(X_AXES, name) ? (name as XAxisName) : 'episode';
 }
 
-/** Success against an axis. Against anything but episodes it is a step: what was reached for what was spent. */
+/** Return success as a series. Against cost or time it is a step function: the success reached so far. */
 export function successOf(curves: Curves, xAxis: XAxisName): Series[] {
   const x = X_AXES[xAxis].of(curves);
   if (!curves.success_rate.some((rate) => rate !== null)) return [];
@@ -53,7 +54,7 @@ export function successOf(curves: Curves, xAxis: XAxisName): Series[] {
   ];
 }
 
-/** Cumulative cost by kind, one on the other: only kinds that ever cost something, the highest layer first. */
+/** Return cumulative cost by kind as stacked layers, the highest first. Kinds without cost are left out. */
 export function stackOf(curves: Curves, xAxis: XAxisName): Series[] {
   const x = X_AXES[xAxis].of(curves);
   let below: readonly number[] = x.map(() => 0);
@@ -70,7 +71,7 @@ export function stackOf(curves: Curves, xAxis: XAxisName): Series[] {
   return layers.reverse();
 }
 
-/** What is known of a run and what came after it. */
+/** Return the known curves followed by more. */
 export function joined(known: Curves | null, more: Curves): Curves {
   if (known === null || known.episode.length === 0) return more;
   if (more.episode.length === 0) return known;

@@ -1,3 +1,4 @@
+// Several runs in one chart: groups that differ only by seed, their median and range.
 import type { Curves, Run } from '../api/types';
 import { X_AXES, type XAxisName } from './curves';
 
@@ -8,7 +9,7 @@ export interface Group {
   readonly runs: readonly Run[];
 }
 
-/** Put runs that differ only by seed together, in the order they come; `apart`: each alone. */
+/** Group runs that differ only by seed, in their order; with `apart`, each run is a group. */
 export function grouped(runs: readonly Run[], apart: boolean): Group[] {
   const groups = new Map<string, Run[]>();
   for (const run of runs) {
@@ -25,7 +26,7 @@ export function grouped(runs: readonly Run[], apart: boolean): Group[] {
     return { key, label: `${name}${unique}${size}`, runs: members };
   });
 
-  /** One run goes by its name; several by their algorithm and what sets them apart from the other groups. */
+  /** Return a run's own name; for several runs, the algorithm and the facts that differ from other groups. */
   function nameOf(key: string, members: readonly Run[]): string {
     const [first] = members;
     if (first === undefined) return '';
@@ -56,7 +57,7 @@ function sameBut(run: Run): string {
   return JSON.stringify([[...factsOf(run)].sort(), run.prices, run.episodes]);
 }
 
-/** One run against an axis; of one that is `over`, the last value holds for good. */
+/** One run against an x axis. If the run is `over`, its last value holds from then on. */
 export interface Track {
   readonly x: readonly number[];
   readonly y: readonly number[];
@@ -88,8 +89,8 @@ export interface Band {
 }
 
 /**
- * The median and range of runs, each a step function, on one grid: from where all have begun to as far as half of them
- * went. A finished run that ended before keeps its last value; an unfinished one is left out from its end on.
+ * Return the median and range of runs, each a step function, on one grid. The grid begins where all runs have begun and
+ * ends where half of them have ended. After its end, a finished run keeps its last value; an unfinished run is left out.
  */
 export function bandOf(tracks: readonly Track[]): Band | null {
   const begun = tracks.filter((track) => track.x.length > 0);

@@ -1,7 +1,8 @@
+// The known answer of a gold query in words.
 import { readable } from '../api/names';
 import type { Gold } from '../api/types';
 
-/** What is right, in a line: "pass"; "north, east or south"; "up, right, done at state 3". */
+/** Return the right answer in a line: "pass"; "north, east or south"; "up, right, done at state 3". */
 export function knownWords(known: Gold['known']): string {
   switch (known.kind) {
     case 'inspect_full':

@@ -1,12 +1,13 @@
+// Key presses: how keys are named and printed, and which binding a press means.
 import type { Binding, Command } from './registry';
 
-/** The part of a KeyboardEvent that decides which key was meant. */
+/** The part of a KeyboardEvent that identifies the key. */
 export type KeyPress = Pick<
   KeyboardEvent,
   'key' | 'shiftKey' | 'ctrlKey' | 'altKey' | 'metaKey' | 'repeat' | 'isComposing'
 >;
 
-/** One name per key: `p`, `?`, `Enter`, `Shift+Enter`, `Shift+s`. */
+/** Return the name of a key: `p`, `?`, `Enter`, `Shift+Enter`, `Shift+s`. */
 export function keyOf(press: KeyPress): string {
   const key = press.key.length === 1 ? press.key.toLowerCase() : press.key;
   const shifts = press.shiftKey && (key.length > 1 || /[a-z ]/.test(key));
@@ -23,7 +24,7 @@ const PRINTED: Readonly<Record<string, string>> = {
   Enter: '↵',
 };
 
-/** How a key is printed on a button. */
+/** Return how a key is printed on a button. */
 export function printed(key: string): string {
   const [name = key, shift] = key.startsWith('Shift+') ? [key.slice(6), true] : [key];
   const face = PRINTED[name] ?? (name.length === 1 ? name.toUpperCase() : name);
@@ -34,7 +35,7 @@ export function bindingOf(bindings: readonly Binding[], command: Command): Bindi
   return bindings.find((binding) => binding.command === command);
 }
 
-/** Some keys belong to the element that has the focus: text to a field, arrows to a slider, Enter to a button. */
+/** Return whether the focused element uses the key itself: a field text, a slider arrows, a button Enter and Space. */
 export function belongsToElement(target: Element | null, key: string): boolean {
   if (target === null) return false;
   const field = target.closest<HTMLElement>('input, textarea, select, [contenteditable]');
@@ -57,7 +58,7 @@ const SLIDER_KEYS = new Set([
   'PageDown',
 ]);
 
-/** What a key press means among these bindings, or null where it means nothing here. */
+/** Return the binding of a key press, or null if it has none here. */
 export function match(press: KeyPress, target: Element | null, bindings: readonly Binding[]): Binding | null {
   if (press.ctrlKey || press.altKey || press.metaKey || press.isComposing) return null;
   const key = keyOf(press);
@@ -65,7 +66,7 @@ export function match(press: KeyPress, target: Element | null, bindings: readonl
   return bindings.find((binding) => binding.keys.includes(key)) ?? null;
 }
 
-/** Listen until the returned function is called. Nothing is heard while a dialog is open. */
+/** Run the commands of key presses until the returned function is called. While a dialog is open, run none. */
 export function listen(bindings: () => readonly Binding[], run: (command: Command) => void): () => void {
   function onKeydown(event: KeyboardEvent): void {
     if (event.defaultPrevented || document.querySelector('dialog[open]') !== null) return;

@@ -1,7 +1,8 @@
+// The one list of keys: every mode, its keys, and what they do.
 import { initial, readable } from '../api/names';
 import type { AnswerableKind, Vocabulary } from '../api/types';
 
-/** What a key can do. `choose:2` sets the third subgoal or action of the vocabulary, `act:2` takes the third action. */
+/** What a key can do. `choose:2` labels with the vocabulary's third subgoal or action; `act:2` steps with its third action. */
 export type Command =
   | 'help'
   | 'pass'
@@ -40,11 +41,11 @@ export interface Binding {
   readonly group: Group;
   readonly once?: true; // ignored while the key repeats
 }
-type Group = 'Answer' | 'Player' | 'Task' | 'Page';
+type Group = 'Answer' | 'Player' | 'Task' | 'General';
 
 export type Mode = AnswerableKind | 'hier_demo' | 'flat_demo' | 'waiting' | 'feedback' | 'between';
 
-/** The one list of keys: all that a mode answers to. A subgoal's or action's own key goes before a general one. */
+/** Return the bindings of a mode. Where a subgoal or an action has the key of another command, that command loses it. */
 export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[] {
   const choices = vocabulary === null ? [] : choiceBindings(mode, vocabulary);
   const taken = new Set(choices.flatMap((binding) => binding.keys));
@@ -62,20 +63,20 @@ function taskBindings(mode: Mode): readonly Binding[] {
   return mode === 'hier_demo' || mode === 'flat_demo' ? TASK : [...TASK, ...PLAYER];
 }
 
-/** Keys that would do two things. */
+/** Return the keys that have two bindings. */
 export function collisions(bindings: readonly Binding[]): string[] {
   const keys = bindings.flatMap((binding) => binding.keys);
   return [...new Set(keys.filter((key, index) => keys.indexOf(key) !== index))];
 }
 
-const HELP: Binding = { command: 'help', keys: ['?'], label: 'Show every key', group: 'Page', once: true };
-/** What works on every view. */
-export const PAGE_BINDINGS: readonly Binding[] = [HELP];
+const HELP: Binding = { command: 'help', keys: ['?'], label: 'Show every key', group: 'General', once: true };
+/** The bindings of every view. */
+export const COMMON_BINDINGS: readonly Binding[] = [HELP];
 
 const UNDO: Binding = {
   command: 'undo',
   keys: ['u'],
-  label: 'Undo my last answer',
+  label: 'Take back my last answer',
   group: 'Task',
   once: true,
 };
@@ -88,45 +89,45 @@ const TASK: readonly Binding[] = [
 const PLAYER: readonly Binding[] = [
   { command: 'play', keys: [' '], label: 'Play or pause', group: 'Player', once: true },
   { command: 'back', keys: ['ArrowLeft', ','], label: 'One step back', group: 'Player' },
-  { command: 'forward', keys: ['ArrowRight', '.'], label: 'One step on', group: 'Player' },
+  { command: 'forward', keys: ['ArrowRight', '.'], label: 'One step forward', group: 'Player' },
   { command: 'back-5', keys: ['Shift+ArrowLeft'], label: 'Five steps back', group: 'Player' },
-  { command: 'forward-5', keys: ['Shift+ArrowRight'], label: 'Five steps on', group: 'Player' },
+  { command: 'forward-5', keys: ['Shift+ArrowRight'], label: 'Five steps forward', group: 'Player' },
   { command: 'start', keys: ['Home'], label: 'To the start', group: 'Player' },
   { command: 'end', keys: ['End'], label: 'To the end', group: 'Player' },
-  { command: 'previous-stop', keys: ['['], label: 'To the subgoal before', group: 'Player' },
+  { command: 'previous-stop', keys: ['['], label: 'To the previous subgoal', group: 'Player' },
   { command: 'next-stop', keys: [']'], label: 'To the next subgoal', group: 'Player' },
   { command: 'slower', keys: ['-'], label: 'Slower', group: 'Player' },
   { command: 'faster', keys: ['=', '+'], label: 'Faster', group: 'Player' },
 ];
 
-/** What works where a trajectory is only watched. */
+/** The bindings of a view where a trajectory is only watched. */
 export const WATCH_BINDINGS: readonly Binding[] = [...PLAYER, HELP];
 
 const ACCEPT: readonly Binding[] = [
   {
     command: 'accept',
     keys: ['Enter'],
-    label: "Keep the learner's choice; at the end, submit",
+    label: "Keep the learner's choice; when nothing is left, submit",
     group: 'Answer',
     once: true,
   },
   {
     command: 'accept-rest',
     keys: ['Shift+Enter'],
-    label: "Keep all the learner's other choices and submit",
+    label: 'Keep all remaining choices of the learner and submit',
     group: 'Answer',
     once: true,
   },
-  { command: 'clear', keys: ['Backspace'], label: 'Take back the last label', group: 'Answer' },
+  { command: 'clear', keys: ['Backspace'], label: 'Undo the last label', group: 'Answer' },
 ];
 
 const DEMO: readonly Binding[] = [
   { command: 'send', keys: ['Shift+Enter'], label: 'Send the demonstration', group: 'Answer', once: true },
-  { command: 'clear', keys: ['Backspace'], label: 'Take back the last move', group: 'Answer' },
+  { command: 'clear', keys: ['Backspace'], label: 'Undo the last move', group: 'Answer' },
   {
     command: 'start-over',
     keys: ['Shift+Backspace'],
-    label: 'Start over; that can be taken back, too',
+    label: 'Start over; this can be undone',
     group: 'Answer',
     once: true,
   },
@@ -143,7 +144,7 @@ function answerBindings(mode: Mode): readonly Binding[] {
     case 'label_hi':
       return [
         ...ACCEPT,
-        { command: 'previous-segment', keys: ['ArrowUp'], label: 'Segment before', group: 'Answer' },
+        { command: 'previous-segment', keys: ['ArrowUp'], label: 'Previous segment', group: 'Answer' },
         { command: 'next-segment', keys: ['ArrowDown'], label: 'Next segment', group: 'Answer' },
       ];
     case 'label_lo':
@@ -152,7 +153,7 @@ function answerBindings(mode: Mode): readonly Binding[] {
         {
           command: 'first-wrong',
           keys: ['x'],
-          label: 'First wrong step: all before it are right',
+          label: 'First wrong step: all steps before it are right',
           group: 'Answer',
           once: true,
         },
@@ -177,7 +178,7 @@ function answerBindings(mode: Mode): readonly Binding[] {
         {
           command: 'first-wrong',
           keys: ['x'],
-          label: 'First wrong step: all before it are right',
+          label: 'First wrong step: all steps before it are right',
           group: 'Answer',
           once: true,
         },
@@ -187,7 +188,7 @@ function answerBindings(mode: Mode): readonly Binding[] {
         {
           command: 'reached',
           keys: ['Enter', 'd'],
-          label: 'The subgoal is reached; at the end, send the demonstration',
+          label: 'The subgoal is reached; after the episode, send the demonstration',
           group: 'Answer',
           once: true,
         },
@@ -199,9 +200,9 @@ function answerBindings(mode: Mode): readonly Binding[] {
       return [];
     case 'feedback':
       return [
-        { command: 'accept', keys: ['Enter'], label: 'Next question', group: 'Answer', once: true },
-        { command: 'undo', keys: ['u'], label: 'Answer this question again', group: 'Answer', once: true },
-        { command: 'previous-segment', keys: ['ArrowUp'], label: 'Label before', group: 'Answer' },
+        { command: 'accept', keys: ['Enter'], label: 'Next query', group: 'Answer', once: true },
+        { command: 'undo', keys: ['u'], label: 'Answer this query again', group: 'Answer', once: true },
+        { command: 'previous-segment', keys: ['ArrowUp'], label: 'Previous label', group: 'Answer' },
         { command: 'next-segment', keys: ['ArrowDown'], label: 'Next label', group: 'Answer' },
       ];
     case 'between':
@@ -229,7 +230,7 @@ function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
   return [];
 }
 
-/** Actions have arrows or a letter each, subgoals the letters that are left, and digits; a flat one's actions have those. */
+/** Actions have an arrow or a letter each, subgoals a free letter and a digit. In a flat demonstration, actions have the digits. */
 function demoBindings(mode: 'hier_demo' | 'flat_demo', { subgoals, actions }: Vocabulary): Binding[] {
   const taken = new Set([...answerBindings(mode), UNDO, HELP].flatMap((binding) => binding.keys));
   const moves = actions.map((name, index): Binding => {
@@ -248,7 +249,7 @@ function freeLetter(name: string, taken: ReadonlySet<string>): string | undefine
   return Array.from(candidates).find((letter) => /[a-z]/.test(letter) && !taken.has(letter));
 }
 
-/** A subgoal has its initial where that is free and no other's, and a digit. */
+/** A subgoal has a digit, and its initial if that is free and no other subgoal has the same. */
 function subgoalBindings(subgoals: readonly string[], reserved: ReadonlySet<string>): Binding[] {
   const initials = subgoals.map((name) => initial(name).toLowerCase());
   return subgoals.map((name, index) => {

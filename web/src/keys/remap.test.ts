@@ -20,20 +20,20 @@ const refused = (command: string, key: string, keymap: Keymap = {}): string | nu
   refusal(of(inspect, command), key, keymap, maze);
 
 describe('a key of one’s own', () => {
-  it('goes in the place of those that came with the page', () => {
+  it('replaces the default keys', () => {
     const bindings = remapped(inspect, { pass: 'j' });
     expect(of(bindings, 'pass').keys).toEqual(['j']);
     expect(of(bindings, 'fail').keys).toEqual(['f']);
   });
 
-  it('belongs to a subgoal or an action by its name, wherever it stands in the vocabulary', () => {
+  it('belongs to the name of a subgoal or action, at any place in the vocabulary', () => {
     const keymap = { 'choose go to target': 'g' };
     const other = { ...maze, subgoals: ['go_to_target', 'north'] };
     expect(of(remapped(bindingsFor('label_hi', maze), keymap), 'choose:4').keys).toEqual(['g']);
     expect(of(remapped(bindingsFor('label_hi', other), keymap), 'choose:0').keys).toEqual(['g']);
   });
 
-  it('is refused where another one has it, in any mode the binding works in', () => {
+  it('is refused if another binding of one of its modes has it', () => {
     expect(refused('pass', 'f')).toContain('F already means “Fail”');
     expect(refused('pass', 'x')).toBeNull(); // First wrong is of labels alone
     expect(refused('skip', 'x')).toContain('First wrong step');
@@ -41,12 +41,12 @@ describe('a key of one’s own', () => {
     expect(refused('undo', 'j', { pass: 'j' })).toContain('Pass');
   });
 
-  it('may be what it was before, or what another has given up', () => {
+  it('may be the default key, or a key that another binding has given up', () => {
     expect(refused('pass', 'p', { pass: 'j' })).toBeNull();
     expect(refused('fail', 'p', { pass: 'j' })).toBeNull();
   });
 
-  it('is none of those that the browser needs', () => {
+  it('cannot be a key that the browser needs', () => {
     for (const key of ['Tab', 'Escape', 'Shift']) expect(refused('pass', key)).toContain('cannot be chosen');
   });
 

@@ -1,19 +1,20 @@
+// Keys that a person has chosen instead of the default keys.
 import { ANSWERABLE, type Vocabulary } from '../api/types';
 import { printed } from './keys';
 import { bindingsFor, type Binding, type Mode } from './registry';
 
-/** Keys that a person has chosen, by what they do: see `idOf`. Pure. */
+/** The chosen keys, by the id of their binding: see `idOf`. */
 export type Keymap = Readonly<Record<string, string>>;
 
 const MODES: readonly Mode[] = [...ANSWERABLE, 'waiting'];
 const KEPT_KEYS = new Set(['Escape', 'Tab', 'Shift', 'Control', 'Alt', 'Meta', 'Dead', 'Unidentified']);
 
-/** What a binding does, whatever the vocabulary: a subgoal or an action is known by its name, not by its number. */
+/** Return a binding's id, the same in every vocabulary: subgoals and actions are identified by name, not by number. */
 export function idOf(binding: Binding): string {
   return binding.command.startsWith('choose:') ? `choose ${binding.label}` : binding.command;
 }
 
-/** The bindings with the chosen keys; a chosen key is taken from whatever had it. */
+/** Return the bindings with the chosen keys. Other bindings lose a chosen key. */
 export function remapped(bindings: readonly Binding[], keymap: Keymap): readonly Binding[] {
   const chosen = bindings.map((binding) => keymap[idOf(binding)]);
   const taken = new Set(chosen);
@@ -26,7 +27,7 @@ export function remapped(bindings: readonly Binding[], keymap: Keymap): readonly
   });
 }
 
-/** Why a key cannot be given to a binding, or null if it can: it must be free wherever the binding works. */
+/** Return why a binding cannot have a key, or null if it can. The key must be free in every mode of the binding. */
 export function refusal(
   binding: Binding,
   key: string,
@@ -47,7 +48,7 @@ export function refusal(
 
 const KEY = 'waypost:keys';
 
-/** The keymap this browser keeps; none where storage is off or holds something else. */
+/** Return the keymap that this browser keeps; an empty one if storage is off or holds something else. */
 export function loadKeymap(storage: Pick<Storage, 'getItem'>): Keymap {
   try {
     const stored: unknown = JSON.parse(storage.getItem(KEY) ?? '{}');
@@ -63,6 +64,6 @@ export function saveKeymap(storage: Pick<Storage, 'setItem' | 'removeItem'>, key
     if (Object.keys(keymap).length === 0) storage.removeItem(KEY);
     else storage.setItem(KEY, JSON.stringify(keymap));
   } catch {
-    // Storage may be off; the keys then last as long as the page.
+    // Storage may be off; then the keys last until the page is reloaded.
   }
 }

@@ -1,9 +1,10 @@
+// Drafts: the labels of the queries that were on the screen last, kept until the page is reloaded.
 import type { Labels } from './labels';
 
 const KEPT = 12;
 const drafts = new Map<number, Labels>();
 
-/** What was labeled before an answer was taken back or a query set aside, by query. */
+/** Return the labels that a query had when it was last on the screen. */
 export function draftOf(query: number): Labels | undefined {
   return drafts.get(query);
 }

@@ -44,7 +44,7 @@ describe('Label_HI', () => {
     expect(last.cursor).toBe(0);
   });
 
-  it('accepts only the rest, not what was changed', () => {
+  it('accepts the rest, and keeps changed labels', () => {
     expect(acceptRemaining(setSubgoal(three, 'west')).subgoals).toEqual(['west', 'north', 'east']);
   });
 
@@ -54,7 +54,7 @@ describe('Label_HI', () => {
     expect(hiAnswer(acceptRemaining(flat))).toBeNull();
   });
 
-  it('takes back edits one by one, and stops at the first', () => {
+  it('undoes edits one by one, and stops at the first', () => {
     const two = setSubgoal(setSubgoal(three, 'west'), 'south');
     const one = clearLast(two);
     expect(one.subgoals).toEqual(['west', null, null]);

@@ -1,6 +1,6 @@
+// The editor of Label_HI: one subgoal per segment. Pure: every function returns the next state.
 import type { AnswerOf, AskOf } from '../api/types';
 
-/** The editor of Label_HI: one subgoal per segment. Pure: every function returns the next state. */
 export interface HiLabels {
   readonly kind: 'label_hi';
   readonly suggested: readonly (string | null)[]; // the learner's own choices
@@ -22,7 +22,7 @@ export function setSubgoal(labels: HiLabels, subgoal: string): HiLabels {
   return edit(labels, labels.subgoals.with(labels.cursor, subgoal), labels.cursor + 1);
 }
 
-/** Keep what the current segment has, else take the learner's choice, and move on. */
+/** Keep the label of the current segment, else take the learner's choice, and move to the next segment. */
 export function acceptSubgoal(labels: HiLabels): HiLabels {
   const subgoal = labels.subgoals[labels.cursor] ?? labels.suggested[labels.cursor];
   if (subgoal === null || subgoal === undefined) return labels;
@@ -40,13 +40,13 @@ export function moveTo(labels: HiLabels, index: number): HiLabels {
   return { ...labels, cursor: bounded(labels, index) };
 }
 
-/** Take back the last edit. */
+/** Undo the last edit. */
 export function clearLast(labels: HiLabels): HiLabels {
   const snapshot = labels.past.at(-1);
   return snapshot ? { ...labels, ...snapshot, past: labels.past.slice(0, -1) } : labels;
 }
 
-/** The answer, once every segment is labeled. */
+/** Return the answer, or null while a segment is not labeled. */
 export function hiAnswer(labels: HiLabels): AnswerOf<'label_hi'> | null {
   const subgoals = labels.subgoals.filter((subgoal) => subgoal !== null);
   return subgoals.length === labels.subgoals.length ? { kind: 'label_hi', subgoals } : null;

@@ -1,9 +1,10 @@
+// The editor of any kind of label, and what the keys do in it.
 import type { Answer, Answerable, Vocabulary } from '../api/types';
 import type { Command } from '../keys/registry';
 import * as hi from './hi';
 import * as lo from './lo';
 
-/** The editor of any kind of Label; an inspection has none. */
+/** The labels of a query; an inspection has none. */
 export type Labels = hi.HiLabels | lo.LoLabels;
 
 export function newLabels(ask: Answerable): Labels | null {
@@ -23,7 +24,7 @@ export function answerOf(labels: Labels | null): Answer | null {
   return labels.kind === 'label_hi' ? hi.hiAnswer(labels) : lo.loAnswer(labels);
 }
 
-/** Set the subgoal or action of that number in the vocabulary. */
+/** Label with the subgoal or action at a place in the vocabulary. */
 export function choose(labels: Labels, index: number, vocabulary: Vocabulary): Labels {
   const isHi = labels.kind === 'label_hi';
   const name = (isHi ? vocabulary.subgoals : vocabulary.actions)[index];
@@ -35,7 +36,7 @@ export function moveTo(labels: Labels, index: number): Labels {
   return labels.kind === 'label_hi' ? hi.moveTo(labels, index) : lo.moveTo(labels, index);
 }
 
-/** What the keys that edit labels do. */
+/** The edits of the keys. */
 export const EDITS: Partial<Record<Command, (labels: Labels) => Labels>> = {
   accept: (labels) => (labels.kind === 'label_hi' ? hi.acceptSubgoal(labels) : lo.acceptState(labels)),
   'accept-rest': (labels) =>
@@ -48,9 +49,9 @@ export const EDITS: Partial<Record<Command, (labels: Labels) => Labels>> = {
   'next-segment': (labels) => moveTo(labels, labels.cursor + 1),
 };
 
-/** Why an edit changed nothing. */
+/** The hints that say why an edit changed nothing. */
 export const HINTS: Partial<Record<Command | 'choose', string>> = {
-  accept: 'The learner made no choice here that could be kept.',
-  'not-done': '“Not done” is for the last state; an action says the same at the others.',
-  choose: 'The last state takes no action: say whether the segment is done here.',
+  accept: 'There is nothing to keep: the learner made no choice here.',
+  'not-done': '“Not done” is for the last state only. At other states, choose an action.',
+  choose: 'The last state needs no action. Choose “Done here” or “Not done”.',
 };

@@ -97,7 +97,7 @@ describe('Label_LO', () => {
     expect(kept.actions).toEqual(['left', 'right', null]);
   });
 
-  it('takes back edits one by one', () => {
+  it('undoes edits one by one', () => {
     const edited = lo.setAction(lo.markFirstWrong(three, 1), 'down');
     expect(lo.clearLast(edited)).toMatchObject({ actions: ['up', null, null], cursor: 1 });
     expect(lo.clearLast(lo.clearLast(edited))).toMatchObject({ actions: [null, null, null], cursor: 0 });
@@ -130,7 +130,7 @@ describe('Label_FULL', () => {
     expect(all.cursor).toBe(2);
   });
 
-  it('goes back to what was passed over', () => {
+  it('goes back to a state that was passed over', () => {
     expect(lo.acceptState(lo.acceptState(lo.moveTo(full, 2))).cursor).toBe(0);
     expect(lo.loAnswer(lo.acceptRest(full))).toMatchObject({ actions: ['up', 'right', 'down'] });
   });

@@ -1,20 +1,20 @@
+// The editor of Label_LO and Label_FULL: an action per state. Pure: every function returns the next state.
 import type { AnswerOf, AskOf } from '../api/types';
 
 /**
- * The editor of Label_LO and Label_FULL: an action at each state and, for Label_LO, the state where the segment should
- * have ended. Pure: every function returns the next state. A segment of H actions has states 0 to H; the last one
- * takes no action.
+ * The labels so far: an action at each state and, in Label_LO, the state where the segment should have ended. A segment
+ * of H actions has states 0 to H; the last state has no action.
  */
 export interface LoLabels {
   readonly kind: 'label_lo' | 'label_full';
-  readonly suggested: Choice; // what the learner did
+  readonly suggested: Choice; // the learner's own actions and end
   readonly actions: readonly (string | null)[]; // null: not labeled yet
   readonly end: End;
   readonly cursor: number;
   readonly past: readonly Snapshot[];
 }
 
-/** The state where the segment should have ended, or 'never' within it; null: not said yet. Label_LO only. */
+/** The state where the segment should have ended; 'never': at none of its states; null: not labeled yet. Label_LO only. */
 type End = number | 'never' | null;
 interface Choice {
   readonly actions: readonly string[];
@@ -33,17 +33,17 @@ export function loLabels(ask: AskOf<'label_lo' | 'label_full'>): LoLabels {
 }
 
 function suggestedEnd(suggestion: AnswerOf<'label_lo' | 'label_full'> | null, length: number): End {
-  if (suggestion?.kind !== 'label_lo') return length; // it ended the segment where the segment ends
+  if (suggestion?.kind !== 'label_lo') return length; // the learner ended the segment at its last state
   const end = suggestion.terminations.indexOf(true);
   return end === -1 ? 'never' : end;
 }
 
-/** The last state that takes a label. */
+/** Return the last state that needs a label. */
 export function lastState(labels: LoLabels): number {
   return labels.kind === 'label_lo' ? labels.actions.length : Math.max(0, labels.actions.length - 1);
 }
 
-/** The first state without a label, or null when all that is needed is there. */
+/** Return the first state whose label is missing, or null if none is. */
 export function firstOpen(labels: LoLabels): number | null {
   const until = typeof labels.end === 'number' ? labels.end : labels.actions.length;
   const open = labels.actions.findIndex((action, state) => action === null && state < until);
@@ -51,12 +51,12 @@ export function firstOpen(labels: LoLabels): number | null {
   return labels.kind === 'label_lo' && labels.end === null ? labels.actions.length : null;
 }
 
-/** Does this state need no label, because the segment should have ended before or at it? */
+/** Return whether a state needs no label because the segment should have ended before it. */
 export function isPast(labels: LoLabels, state: number): boolean {
   return typeof labels.end === 'number' && state > labels.end;
 }
 
-/** Label the current state with an action and go on. An action says that the segment goes on from here. */
+/** Label the current state with an action and move to the next. The segment then does not end here. */
 export function setAction(labels: LoLabels, action: string): LoLabels {
   const { cursor } = labels;
   if (cursor >= labels.actions.length) return labels;
@@ -71,14 +71,14 @@ export function setDone(labels: LoLabels): LoLabels {
   return edit(labels, { actions, end: labels.cursor, cursor: labels.cursor });
 }
 
-/** Not done, not even at the last state. */
+/** Not done: the segment should not have ended, even at its last state. */
 export function setNotDone(labels: LoLabels): LoLabels {
   const { actions, cursor } = labels;
   if (labels.kind !== 'label_lo' || cursor < actions.length) return labels;
   return edit(labels, { actions, end: 'never', cursor });
 }
 
-/** Keep what the current state has, else take the learner's choice, and go on. */
+/** Keep the label of the current state, else take the learner's choice, and move to the next state. */
 export function acceptState(labels: LoLabels): LoLabels {
   const { cursor, suggested } = labels;
   if (!isOpen(labels, cursor)) return moveTo(labels, onward(labels));
@@ -99,7 +99,7 @@ export function markFirstWrong(labels: LoLabels, state: number): LoLabels {
   return edit(labels, { actions, end, cursor });
 }
 
-/** Take the learner's choice at every state that has no label. */
+/** Take the learner's choice at every state without a label. */
 export function acceptRest(labels: LoLabels): LoLabels {
   const { suggested } = labels;
   const mayEnd = typeof suggested.end !== 'number' || (labels.actions[suggested.end] ?? null) === null;
@@ -116,13 +116,13 @@ export function moveTo(labels: LoLabels, state: number): LoLabels {
   return { ...labels, cursor: bounded(labels, state) };
 }
 
-/** Take back the last edit. */
+/** Undo the last edit. */
 export function clearLast(labels: LoLabels): LoLabels {
   const snapshot = labels.past.at(-1);
   return snapshot ? { ...labels, ...snapshot, past: labels.past.slice(0, -1) } : labels;
 }
 
-/** The answer, once nothing is open. */
+/** Return the answer, or null while a label is missing. */
 export function loAnswer(labels: LoLabels): AnswerOf<'label_lo' | 'label_full'> | null {
   if (firstOpen(labels) !== null) return null;
   const { actions, end } = labels;

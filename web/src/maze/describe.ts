@@ -1,7 +1,9 @@
+// A maze in words, for people who do not see the canvas.
 import type { Tape } from '../player/tape';
+import { count } from '../ui/format';
 import { describeCell, parseCell, type Maze } from './geometry';
 
-/** The picture in words: where each asked segment begins and ends, and where the agent is now. */
+/** Return the picture in words: where the segments in question begin and end, and where the agent is now. */
 export function describeMaze(maze: Maze, tape: Tape, at: number): string {
   const place = (frame: number): string => {
     const cell = parseCell(tape.frames[frame]);
@@ -12,5 +14,5 @@ export function describeMaze(maze: Maze, tape: Tape, at: number): string {
   if (first === undefined || last === undefined) return `A maze of rooms. The agent is ${place(at)}.`;
   const named = asked.length === 1 && first.subgoal !== null ? ` for subgoal ${first.subgoal}` : '';
   const way = `It begins ${place(first.first)} and ends ${place(last.last)}`;
-  return `A maze of rooms. The way asked about${named}: ${asked.length} segments. ${way}. Now the agent is ${place(at)}.`;
+  return `A maze of rooms. The trajectory${named}: ${count(asked.length, 'segment')}. ${way}. Now the agent is ${place(at)}.`;
 }

@@ -1,7 +1,8 @@
+// Draws a maze and the trajectory through it.
 import { initial } from '../api/names';
 import type { Label, Scene } from '../player/scene';
 import type { Stretch } from '../player/tape';
-import { direction, isDoor, isLava, parseCell, trailOffset, type Cell, type Maze } from './geometry';
+import { direction, isDoor, isLava, MOVES, parseCell, trailOffset, type Cell, type Maze } from './geometry';
 import type { Palette } from './palette';
 
 export interface Picture {
@@ -13,7 +14,7 @@ export interface Picture {
 
 type Brush = CanvasRenderingContext2D;
 
-/** Draw everything; a few hundred strokes, well under a frame. */
+/** Draw everything. It takes a few hundred strokes, much less than the time of a frame. */
 export function drawMaze(brush: Brush, picture: Picture): void {
   brush.clearRect(0, 0, picture.size, picture.size);
   drawCells(brush, picture);
@@ -56,7 +57,7 @@ function drawTarget(brush: Brush, picture: Picture): void {
   }
 }
 
-/** A segment's way: what was already shown is strong, what is to come is thin, what came before the question is faint. */
+/** Draw the path of a segment: thick up to the current frame, thin after it, faint if the segment is not in question. */
 function drawTrail(brush: Brush, picture: Picture, stretch: Stretch): void {
   const { scene } = picture;
   const unit = unitOf(picture);
@@ -109,7 +110,7 @@ function fillTriangle(brush: Brush, [x, y]: readonly [number, number], [dy, dx]:
   brush.fill();
 }
 
-/** Where it all ended: a cross in lava, a ring elsewhere; the agent itself may be there. */
+/** Draw where the trajectory ended: a cross in lava, a ring elsewhere, smaller where the agent is. */
 function drawEnd(brush: Brush, picture: Picture): void {
   const { maze, palette, scene } = picture;
   const last = scene.tape.frames.length - 1;
@@ -134,12 +135,12 @@ function drawEnd(brush: Brush, picture: Picture): void {
   brush.stroke();
 }
 
-/** The stretch in question last, so that no other marker covers its own. */
+/** Return the stretches with the current one last, so that no other marker covers its marker. */
 function inFront({ tape, current }: Scene): Stretch[] {
   return tape.stretches.toSorted((a, b) => Number(a.index === current) - Number(b.index === current));
 }
 
-/** Where a subgoal was decided: its number and letter, at the corner of the cell. */
+/** Draw where a subgoal was chosen: its number and letter, at the corner of the cell. */
 function drawMarker(brush: Brush, picture: Picture, stretch: Stretch): void {
   const cell = cellAt(picture, stretch.first);
   if (cell === null || stretch.subgoal === null) return;
@@ -168,16 +169,14 @@ function drawMarker(brush: Brush, picture: Picture, stretch: Stretch): void {
   brush.globalAlpha = 1;
 }
 
-const WAYS: Readonly<Record<string, Cell>> = { up: [-1, 0], down: [1, 0], left: [0, -1], right: [0, 1] };
-
-/** A label: an arrow out of its state, or a square where the segment should have ended. */
+/** Draw a label: an arrow out of its state, or a square where the segment should have ended. */
 function drawLabel(brush: Brush, picture: Picture, label: Label): void {
   const cell = cellAt(picture, label.frame);
   if (cell === null) return;
   const { palette } = picture;
   const unit = unitOf(picture);
   const [x, y] = centre(picture, cell, 0);
-  const way = label.action === null ? null : WAYS[label.action];
+  const way = label.action === null ? null : MOVES[label.action];
   brush.fillStyle = palette.map.label;
   brush.strokeStyle = palette.map['label-edge'];
   brush.lineWidth = unit * 0.06;

@@ -1,3 +1,4 @@
+// The geometry of a maze: its cells, rooms, doors and lava.
 import type { Json } from '../api/types';
 
 export type Cell = readonly [row: number, column: number];
@@ -9,7 +10,15 @@ export interface Maze {
   readonly goal: Cell;
 }
 
-const ROOM_PITCH = 4; // a wall and a room of three cells
+/** The actions, as (row, column) of a step. */
+export const MOVES: Readonly<Record<string, Cell>> = {
+  up: [-1, 0],
+  down: [1, 0],
+  left: [0, -1],
+  right: [0, 1],
+};
+
+const ROOM_PITCH = 4; // cells: one of wall, three of room
 
 export function parseMaze(json: Json): Maze | null {
   if (typeof json !== 'object' || json === null) return null;
@@ -35,12 +44,12 @@ export function isWallLine([row, column]: Cell): boolean {
   return row % ROOM_PITCH === 0 || column % ROOM_PITCH === 0;
 }
 
-/** A free cell in a wall belongs to no room. */
+/** Return whether a cell is a door: a free cell in a wall, which belongs to no room. */
 export function isDoor(maze: Maze, cell: Cell): boolean {
   return isWallLine(cell) && !isLava(maze, cell);
 }
 
-/** Where a cell is, in words. */
+/** Return in words where a cell is. */
 export function describeCell(maze: Maze, cell: Cell): string {
   if (sameCell(cell, maze.goal)) return 'on the target';
   if (isLava(maze, cell)) return 'in lava';
@@ -53,7 +62,7 @@ export function sameCell(a: Cell, b: Cell): boolean {
   return a[0] === b[0] && a[1] === b[1];
 }
 
-/** Which way a step goes, as (row, column) of a unit vector; null when it stays. */
+/** Return the direction of a step as (row, column) of a unit vector; null if it stays in its cell. */
 export function direction(from: Cell, to: Cell): Cell | null {
   const [rows, columns] = [to[0] - from[0], to[1] - from[1]];
   return rows === 0 && columns === 0 ? null : [Math.sign(rows), Math.sign(columns)];
@@ -61,7 +70,7 @@ export function direction(from: Cell, to: Cell): Cell | null {
 
 const OFFSETS = [0, 0.13, -0.13];
 
-/** How far, in cells, a segment's trail is shifted, so that a way there and back does not lie on itself. */
+/** Return how far, in cells, a segment's path is shifted, so that the path back does not cover the path there. */
 export function trailOffset(index: number): number {
   return OFFSETS[index % OFFSETS.length] ?? 0;
 }

@@ -1,3 +1,4 @@
+// The colors of the map.
 import { readColor } from '../style/colors';
 import { SUBGOAL_COLORS } from '../style/subgoals';
 
@@ -16,7 +17,7 @@ const NAMES = [
 ] as const;
 type Name = (typeof NAMES)[number];
 
-/** The colors of the map, read from the style sheet, so that they are written down once. */
+/** The colors, read from the style sheet, which alone defines them. */
 export interface Palette {
   readonly map: Readonly<Record<Name, string>>;
   readonly subgoals: readonly string[];

@@ -1,9 +1,8 @@
+// The steps of the maze.
 import type { Json } from '../api/types';
-import { parseCell, type Cell } from './geometry';
+import { MOVES, parseCell } from './geometry';
 
-const MOVES: Readonly<Record<string, Cell>> = { up: [-1, 0], down: [1, 0], left: [0, -1], right: [0, 1] };
-
-/** The state that an action leads to; a maze has no chance in it. */
+/** Return the state that an action leads to. Steps in a maze are deterministic. */
 export function stepMaze(state: Json, action: string): Json {
   const cell = parseCell(state);
   const move = MOVES[action];

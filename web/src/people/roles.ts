@@ -1,8 +1,12 @@
+// The roles, and what each role may do.
 import type { Role } from '../api/types';
 
 export const ROLES: readonly { readonly role: Role; readonly may: string }[] = [
-  { role: 'annotator', may: 'Answers queries, and sees everything but people.' },
-  { role: 'viewer', may: 'Sees everything but people, and changes nothing.' },
-  { role: 'learner', may: 'A program: makes runs, asks, uses answers, and sees everything but people.' },
-  { role: 'admin', may: 'May do everything, letting others in included.' },
+  { role: 'annotator', may: 'Answers queries, and sees everything except people.' },
+  { role: 'viewer', may: 'Sees everything except people, and changes nothing.' },
+  {
+    role: 'learner',
+    may: 'A program: creates runs, asks queries, uses answers, and sees everything except people.',
+  },
+  { role: 'admin', may: 'May do everything, including adding people.' },
 ];

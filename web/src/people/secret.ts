@@ -1,7 +1,8 @@
-/** What is shown once. */
+// The texts of a new login link or token.
+/** A text that is shown once. */
 export interface Secret {
   readonly title: string;
-  readonly what: string;
+  readonly use: string;
   readonly text: string;
 }
 
@@ -10,7 +11,7 @@ export function loginSecret(name: string, code: string, hours: number): Secret {
     hours < 1 ? `${Math.round(hours * 60)} minutes` : hours < 48 ? `${hours} hours` : `${hours / 24} days`;
   return {
     title: `Login link for ${name}`,
-    what: `Send it to ${name}, and to nobody else: whoever opens it first is signed in as ${name}. It works once, within ${time}.`,
+    use: `Send it only to ${name}: the first person who opens it is signed in as ${name}. It works once, within ${time}.`,
     text: `${location.origin}/login#${code}`,
   };
 }
@@ -18,7 +19,7 @@ export function loginSecret(name: string, code: string, hours: number): Secret {
 export function tokenSecret(token: string): Secret {
   return {
     title: 'New API token',
-    what: 'A program calls with it: “Authorization: Bearer …”, or WAYPOST_TOKEN for the commands. It is good until it is revoked.',
+    use: 'Programs send it as “Authorization: Bearer …”. The waypost commands read it from WAYPOST_TOKEN. It is valid until you revoke it.',
     text: token,
   };
 }

@@ -33,7 +33,7 @@ const news = (known: number, states: string[], more: Partial<PlayStates> = {}): 
 const played = (...moves: Move[]): Demonstration => moves.reduce(demos.make, demos.begin(ask));
 
 describe('a demonstration', () => {
-  it('is the segments that were chosen, walked and reached', () => {
+  it('is a list of segments, each with its subgoal and actions', () => {
     const demonstration = played(north, up, up, reach, east, right);
     expect(demos.segmentsOf(demonstration)).toEqual([
       { subgoal: 'north', actions: ['up', 'up'] },
@@ -103,7 +103,7 @@ describe('what cannot be done', () => {
 });
 
 describe('states', () => {
-  it('follow the steps, those that were known before them included', () => {
+  it('follow the steps, after the states that were known', () => {
     const demonstration = played(north, up, up);
     expect(demos.isBehind(demonstration)).toBe(true);
     expect(demos.answerOf(demonstration)).toBeNull();
@@ -123,7 +123,7 @@ describe('states', () => {
     ]);
   });
 
-  it('end the episode, and what was played on after the end did not happen', () => {
+  it('end the episode, and drop the moves after its end', () => {
     const ahead = played(north, up, right, reach, east, right);
     const over = demos.learn(ahead, news(1, ['s2', 's3'], { ended: true, succeeded: true }));
     expect(over.moves).toEqual([north, up, right, reach, east]);

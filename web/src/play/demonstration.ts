@@ -1,27 +1,28 @@
+// A demonstration that is being played, as a list of moves. Pure: every function returns the next one.
 import type { AnswerOf, AskOf, DemoSegment, Json, PlayStates, Price } from '../api/types';
 import type { Stretch, Tape } from '../player/tape';
 
-/** One thing a person did. A demonstration is the list of them, so that each can be taken back, starting over too. */
+/** A move of the annotator. A demonstration is a list of moves, so that each can be undone, including starting over. */
 export type Move =
   | { readonly does: 'choose'; readonly subgoal: string }
   | { readonly does: 'act'; readonly action: string }
   | { readonly does: 'reach' }
   | { readonly does: 'restart' };
 
-/** A demonstration under way. Pure: every function returns the next one. */
+/** A demonstration so far. */
 export interface Demonstration {
   readonly moves: readonly Move[];
-  readonly states: readonly Json[]; // s_1 and what the learner's environment has made of the actions so far
-  readonly pictures: readonly (string | null)[]; // of these states, by hash; null where there is none yet
+  readonly states: readonly Json[]; // s_1 and the states that the learner's environment has returned
+  readonly pictures: readonly (string | null)[]; // the hash of each state's picture; null where there is none yet
   readonly ended: boolean; // the episode, in the last of these states
   readonly succeeded: boolean; // the whole task, in the last of these states
 }
 
-/** A segment as it stands. */
+/** A segment so far. */
 export interface Part {
   readonly subgoal: string | null; // null in a flat demonstration
   readonly actions: readonly string[];
-  readonly reached: boolean; // said to be over
+  readonly reached: boolean; // the annotator said so
 }
 
 type Ask = AskOf<'hier_demo'>;
@@ -30,7 +31,7 @@ export function begin(ask: Ask, moves: readonly Move[] = []): Demonstration {
   return { moves, states: [ask.state], pictures: [null], ended: false, succeeded: false };
 }
 
-/** The segments since the last start. */
+/** Return the segments since the last start. */
 export function partsOf({ moves }: Demonstration): Part[] {
   const parts: Part[] = [];
   for (const move of moves.slice(moves.findLastIndex((one) => one.does === 'restart') + 1)) {
@@ -58,21 +59,21 @@ export function countActions(parts: readonly Part[]): number {
   return parts.reduce((sum, part) => sum + part.actions.length, 0);
 }
 
-/** Whether there are actions whose states are still to come. */
+/** Return whether the states of some actions have not come yet. */
 export function isBehind(demonstration: Demonstration): boolean {
   return countActions(partsOf(demonstration)) >= demonstration.states.length && !demonstration.ended;
 }
 
-/** Why a move cannot be made now; null if it can. */
+/** Return why a move cannot be made now, or null if it can. */
 export function obstacle(demonstration: Demonstration, ask: Ask, move: Move): string | null {
   const parts = partsOf(demonstration);
   const under = parts.at(-1);
   const isUnderWay = under !== undefined && !under.reached;
-  if (move.does === 'restart') return parts.length === 0 ? 'Nothing is played yet.' : null;
-  if (demonstration.ended) return 'The episode is over: send it, take a step back, or start over.';
+  if (move.does === 'restart') return parts.length === 0 ? 'No step is played yet.' : null;
+  if (demonstration.ended) return 'The episode is over. Send the demonstration, undo a step, or start over.';
   switch (move.does) {
     case 'choose':
-      if (isUnderWay && under.actions.length > 0) return 'First say that the last subgoal is reached.';
+      if (isUnderWay && under.actions.length > 0) return 'First press “Reached” for the last subgoal.';
       if (!isUnderWay && parts.length >= ask.max_segments)
         return `A demonstration has at most ${ask.max_segments} segments.`;
       return null;
@@ -91,12 +92,12 @@ export function make(demonstration: Demonstration, move: Move): Demonstration {
   return fitted({ ...demonstration, moves: [...demonstration.moves, move] });
 }
 
-/** Take the last move back. */
+/** Undo the last move. */
 export function takeBack(demonstration: Demonstration): Demonstration {
   return fitted({ ...demonstration, moves: demonstration.moves.slice(0, -1) });
 }
 
-/** Put in what the environment made of the moves. What was played on after the end did not happen. */
+/** Take over the states that the environment returned. Moves after the end of the episode are dropped. */
 export function learn(demonstration: Demonstration, news: PlayStates): Demonstration {
   const states = [...demonstration.states.slice(0, news.known), ...news.states];
   const pictures = states.map((_, at) => news.frames[at - news.known] ?? demonstration.pictures[at] ?? null);
@@ -113,13 +114,13 @@ export function costOf(demonstration: Demonstration, price: Price): number {
   return price.fixed + price.per_action * actions + price.per_segment * hierarchical;
 }
 
-/** The answer, once there is a step and every step has its state. */
+/** Return the answer, or null while there is no step or a step has no state yet. */
 export function answerOf(demonstration: Demonstration): AnswerOf<'hier_demo'> | null {
   const segments = segmentsOf(demonstration);
   return segments.length === 0 || isBehind(demonstration) ? null : { kind: 'hier_demo', segments };
 }
 
-/** The demonstration as a renderer draws it: as far as its states are known. */
+/** Return the demonstration as a tape, as far as its states are known. */
 export function tapeOf(demonstration: Demonstration): Tape {
   const end = demonstration.states.length - 1;
   let next = 0;
@@ -132,7 +133,7 @@ export function tapeOf(demonstration: Demonstration): Tape {
   return { frames: demonstration.states, pictures: demonstration.pictures, stretches, start: 0 };
 }
 
-/** Without the states of actions that are gone. */
+/** Return the demonstration without the states of undone actions. */
 function fitted(demonstration: Demonstration): Demonstration {
   const most = countActions(partsOf(demonstration)) + 1;
   if (most >= demonstration.states.length) return demonstration;
@@ -140,7 +141,7 @@ function fitted(demonstration: Demonstration): Demonstration {
   return { ...demonstration, states, pictures, ended: false, succeeded: false };
 }
 
-/** The moves without those that came after so many actions since the last start. */
+/** Return the moves up to a number of actions since the last start. */
 function upTo(moves: readonly Move[], actions: number): readonly Move[] {
   let left = actions;
   const start = moves.findLastIndex((one) => one.does === 'restart') + 1;

@@ -1,3 +1,4 @@
+// Drafts of demonstrations: the moves so far, kept in the storage of the tab.
 import type { Vocabulary } from '../api/types';
 import type { Move } from './demonstration';
 
@@ -6,7 +7,7 @@ const KEPT = 6;
 
 type Drafts = readonly (readonly [query: unknown, moves: unknown])[]; // the newest last
 
-/** Demonstrations under way outlive a reload of the page and a lease that ran out, as long as the tab is there. */
+/** The drafts. They survive a reload and an expired lease, until the tab is closed. */
 export class PlayDrafts {
   readonly #storage: Storage;
 
@@ -14,7 +15,7 @@ export class PlayDrafts {
     this.#storage = storage;
   }
 
-  /** What was played of a query before; nothing if that does not fit the run. */
+  /** Return the moves of a query's draft; none if they do not fit the run's vocabulary. */
   of(query: string, vocabulary: Vocabulary): readonly Move[] {
     const moves = this.#load().find(([kept]) => kept === query)?.[1];
     return Array.isArray(moves) && moves.every((move) => fits(move, vocabulary)) ? moves : [];
@@ -26,7 +27,7 @@ export class PlayDrafts {
     try {
       this.#storage.setItem(KEY, JSON.stringify(drafts));
     } catch {
-      // The storage is full or forbidden; the page itself still knows.
+      // The storage is full or forbidden; the view itself still has the moves.
     }
   }
 

@@ -1,3 +1,4 @@
+// The state of one demonstration on the screen, and what every key does.
 import { readable } from '../api/names';
 import type { AnswerOf, AskOf, PlayMoves, PlayStates, Price, Vocabulary } from '../api/types';
 import { bindingsFor, type Command } from '../keys/registry';
@@ -7,7 +8,7 @@ import type { Demonstration, Move } from './demonstration';
 import type { PlayDrafts } from './drafts';
 
 export interface PlayOptions {
-  readonly draft: string; // what the demonstration is kept under
+  readonly draft: string; // the key of its draft
   readonly drafts: PlayDrafts;
   readonly ask: AskOf<'hier_demo'>;
   readonly vocabulary: Vocabulary;
@@ -15,7 +16,7 @@ export interface PlayOptions {
 }
 
 export interface PlayEvents {
-  tell(moves: PlayMoves): void; // the learner's environment
+  tell(moves: PlayMoves): void; // to the learner's environment
   submit(answer: AnswerOf<'hier_demo'>): void;
   skip(): void;
   undo(): void;
@@ -23,13 +24,13 @@ export interface PlayEvents {
 
 type Stage = 'connecting' | 'here' | 'away' | 'lost' | 'refused';
 
-/** One demonstration on the screen: what is played, what the learner's environment made of it, what every key does. */
+/** One demonstration on the screen: its moves, the states that the learner's environment returned, and the keys. */
 export class Play {
   demonstration: Demonstration;
   stage: Stage = $state('connecting');
-  refusal = $state(''); // why the server will not have us play
+  refusal = $state(''); // why the server refuses the connection
   hint = $state(''); // why a key did nothing
-  doubtful = $state(false); // whether to send it is asked
+  doubtful = $state(false); // ask whether to send it, though the task is not accomplished
   readonly bindings;
   readonly parts = $derived.by(() => demos.partsOf(this.demonstration));
   readonly steps = $derived.by(() => demos.countActions(this.parts));
@@ -39,9 +40,9 @@ export class Play {
   readonly #options: PlayOptions;
   readonly #events: PlayEvents;
   #number = 0;
-  #underway: number | null = null; // the message whose states are to come
-  #heard = false; // whether the environment has said anything, of the start to begin with
-  #outdated = false; // whether what it said was taken back since
+  #underway: number | null = null; // the message whose states have not come yet
+  #heard = false; // whether any states have come, those of the start included
+  #outdated = false; // whether moves were undone since the last message
 
   constructor(options: PlayOptions, events: PlayEvents) {
     const { ask, draft, drafts, vocabulary } = options;
@@ -55,7 +56,7 @@ export class Play {
     return this.#options.ask;
   }
 
-  /** The segment under way, if there is one. */
+  /** The segment that is being played, if any. */
   get current(): demos.Part | null {
     const last = this.parts.at(-1);
     return last && !last.reached ? last : null;
@@ -74,17 +75,17 @@ export class Play {
     else if (command === 'skip' || command === 'undo') this.#events[command]();
   }
 
-  /** Send it although the task is not accomplished. */
+  /** Send the demonstration, accomplished or not. */
   sendAnyway(): void {
     const answer = demos.answerOf(this.demonstration);
     if (answer !== null) this.#events.submit(answer);
   }
 
-  // --- what the connection says
+  // --- from the connection
 
   present(isHere: boolean): void {
     this.stage = isHere ? 'here' : 'away';
-    this.#underway = null; // whoever is there now has not heard it
+    this.#underway = null; // another environment has not received the message
     this.#catchUp();
   }
 
@@ -105,11 +106,11 @@ export class Play {
     this.#catchUp();
   }
 
-  // --- what the person does
+  // --- from the annotator
 
   #make(move: Move): void {
     if (this.stage !== 'here' && move.does === 'act') {
-      this.hint = 'The learner’s environment is not here just now, so nobody can see where a step leads.';
+      this.hint = 'The learner’s environment is not connected, so a step cannot be carried out now.';
       return;
     }
     const obstacle = demos.obstacle(this.demonstration, this.ask, move);
@@ -124,7 +125,7 @@ export class Play {
 
   #takeBack(): void {
     if (this.demonstration.moves.length === 0) {
-      this.hint = 'Nothing is played yet.';
+      this.hint = 'No step is played yet.';
       return;
     }
     this.#outdated = true;
@@ -138,9 +139,9 @@ export class Play {
   }
 
   #send(): void {
-    if (this.steps === 0) this.hint = 'Nothing is played yet.';
+    if (this.steps === 0) this.hint = 'No step is played yet.';
     else if (demos.isBehind(this.demonstration))
-      this.hint = 'The last steps are not carried out yet; wait for the learner’s environment.';
+      this.hint = 'The last steps are not carried out yet. Wait for the learner’s environment.';
     else if (this.demonstration.succeeded) this.sendAnyway();
     else this.doubtful = true;
   }
@@ -150,7 +151,7 @@ export class Play {
     this.#options.drafts.keep(this.#options.draft, demonstration.moves);
   }
 
-  /** Have the environment carry out what it has not yet; one message at a time, always the newest. */
+  /** Send the environment the steps it has not carried out: one message at a time, always the newest. */
   #catchUp(): void {
     if (this.stage !== 'here' || this.#underway !== null) return;
     if (this.#heard && !demos.isBehind(this.demonstration)) return;
@@ -177,12 +178,14 @@ export class Play {
   }
 }
 
-/** What to do next, in a sentence. */
+/** Return in a sentence what to do next. */
 export function nextStep(play: Play): string {
   const { current, ask, steps } = play;
   if (ask.flat)
-    return steps === 0 ? 'Carry out the task, step by step.' : 'Go on until the task is accomplished.';
+    return steps === 0 ? 'Carry out the task, step by step.' : 'Continue until the task is accomplished.';
   if (current === null) return steps === 0 ? 'Choose the first subgoal.' : 'Choose the next subgoal.';
   const subgoal = readable(current.subgoal ?? '');
-  return current.actions.length === 0 ? `Move toward “${subgoal}”.` : `Say when “${subgoal}” is reached.`;
+  return current.actions.length === 0
+    ? `Move toward “${subgoal}”.`
+    : `Press “Reached” when “${subgoal}” is reached.`;
 }

@@ -20,8 +20,8 @@ const vocabulary: Vocabulary = {
 const price: Price = { fixed: 0, per_action: 1, per_segment: 2 };
 const GOAL = 3;
 
-/** The page's side beside a learner who walks a line; it answers when it is asked to. */
-class Table {
+/** A demonstration, and a learner's environment that is a line of cells and replies when told to. */
+class Scenario {
   told: PlayMoves[] = [];
   sent: Answer[] = [];
   readonly play: Play;
@@ -90,12 +90,12 @@ const SUCCESS = ['choose:0', 'act:1', 'reached', 'choose:1', 'act:1', 'act:1'] a
 beforeEach(() => sessionStorage.clear());
 
 describe('playing', () => {
-  it('sends what was played, once the task is accomplished, with one key', () => {
-    const table = new Table().here();
-    table.walk(...SUCCESS);
-    expect(table.play.cost).toBe(3 + 2 * 2);
-    table.press('reached');
-    expect(table.sent).toEqual([
+  it('sends the demonstration with one key once the task is accomplished', () => {
+    const scenario = new Scenario().here();
+    scenario.walk(...SUCCESS);
+    expect(scenario.play.cost).toBe(3 + 2 * 2);
+    scenario.press('reached');
+    expect(scenario.sent).toEqual([
       {
         kind: 'hier_demo',
         segments: [
@@ -107,40 +107,40 @@ describe('playing', () => {
   });
 
   it('has a picture of every state, the first one too, where the learner sends them', () => {
-    const table = new Table().here();
-    table.walk('choose:0', 'act:1', 'act:1', 'clear');
-    expect(table.play.scene.tape.pictures).toEqual(['picture of 0', 'picture of 1']);
+    const scenario = new Scenario().here();
+    scenario.walk('choose:0', 'act:1', 'act:1', 'clear');
+    expect(scenario.play.scene.tape.pictures).toEqual(['picture of 0', 'picture of 1']);
   });
 
   it('asks before a demonstration is sent that does not succeed', () => {
-    const table = new Table().here();
-    table.walk('choose:0', 'act:1', 'send');
-    expect([table.sent, table.play.doubtful]).toEqual([[], true]);
-    table.play.sendAnyway();
-    expect(table.sent).toHaveLength(1);
+    const scenario = new Scenario().here();
+    scenario.walk('choose:0', 'act:1', 'send');
+    expect([scenario.sent, scenario.play.doubtful]).toEqual([[], true]);
+    scenario.play.sendAnyway();
+    expect(scenario.sent).toHaveLength(1);
   });
 
   it('sends nothing while there is nothing, or while steps are not carried out', () => {
-    const table = new Table().here();
-    table.press('send');
-    expect(table.play.hint).not.toBe('');
-    table.press('choose:0', 'act:1', 'send');
-    expect(table.play.hint).toContain('not carried out');
-    expect([table.sent, table.play.doubtful]).toEqual([[], false]);
+    const scenario = new Scenario().here();
+    scenario.press('send');
+    expect(scenario.play.hint).not.toBe('');
+    scenario.press('choose:0', 'act:1', 'send');
+    expect(scenario.play.hint).toContain('not carried out');
+    expect([scenario.sent, scenario.play.doubtful]).toEqual([[], false]);
   });
 
   it('says why a key does nothing', () => {
-    const table = new Table().here();
-    table.press('act:1');
-    expect(table.play.hint).toBe('Choose a subgoal first.');
-    table.press('choose:0');
-    expect(table.play.hint).toBe('');
+    const scenario = new Scenario().here();
+    scenario.press('act:1');
+    expect(scenario.play.hint).toBe('Choose a subgoal first.');
+    scenario.press('choose:0');
+    expect(scenario.play.hint).toBe('');
   });
 
   it('has a flat demonstration sent with the key that says it is done', () => {
-    const table = new Table({ flat: true }).here();
-    table.walk('act:1', 'act:1', 'act:1', 'send');
-    expect(table.sent).toEqual([
+    const scenario = new Scenario({ flat: true }).here();
+    scenario.walk('act:1', 'act:1', 'act:1', 'send');
+    expect(scenario.sent).toEqual([
       { kind: 'hier_demo', segments: [{ subgoal: null, actions: ['right', 'right', 'right'] }] },
     ]);
   });
@@ -148,42 +148,42 @@ describe('playing', () => {
 
 describe('the learner’s environment', () => {
   it('is told one thing at a time, and always the newest', () => {
-    const table = new Table().here();
-    table.press('choose:0', 'act:1', 'act:1', 'act:0');
-    expect(table.told.map((moves) => moves.segments[0]?.actions)).toEqual([['right']]);
-    table.reply();
-    expect(table.told.map((moves) => [moves.segments[0]?.actions, moves.known])).toEqual([
+    const scenario = new Scenario().here();
+    scenario.press('choose:0', 'act:1', 'act:1', 'act:0');
+    expect(scenario.told.map((moves) => moves.segments[0]?.actions)).toEqual([['right']]);
+    scenario.reply();
+    expect(scenario.told.map((moves) => [moves.segments[0]?.actions, moves.known])).toEqual([
       [['right', 'right', 'left'], 2],
     ]);
-    table.reply();
-    expect(table.play.demonstration.states).toEqual([0, 1, 2, 1]);
+    scenario.reply();
+    expect(scenario.play.demonstration.states).toEqual([0, 1, 2, 1]);
   });
 
-  it('is not believed about what was taken back meanwhile', () => {
-    const table = new Table().here();
-    table.press('choose:0', 'act:1', 'clear', 'act:0');
-    table.reply();
-    expect(table.play.demonstration.states).toEqual([0]);
-    table.reply();
-    expect(table.play.demonstration.states).toEqual([0, -1]);
+  it('is ignored if it replies to moves that were undone meanwhile', () => {
+    const scenario = new Scenario().here();
+    scenario.press('choose:0', 'act:1', 'clear', 'act:0');
+    scenario.reply();
+    expect(scenario.play.demonstration.states).toEqual([0]);
+    scenario.reply();
+    expect(scenario.play.demonstration.states).toEqual([0, -1]);
   });
 
-  it('is not waited for when it is away: steps wait, what was played stays, and it goes on when it is back', () => {
-    const table = new Table().here();
-    table.walk('choose:0', 'act:1');
-    table.press('act:1');
-    table.play.present(false);
-    table.press('act:1');
-    expect(table.play.hint).toContain('not here');
-    expect(table.play.steps).toBe(2);
-    table.told = []; // whoever heard it is gone
-    table.here();
-    expect(table.play.demonstration.states).toEqual([0, 1, 2]);
+  it('may be away: no steps are made, the moves are kept, and playing continues when it is back', () => {
+    const scenario = new Scenario().here();
+    scenario.walk('choose:0', 'act:1');
+    scenario.press('act:1');
+    scenario.play.present(false);
+    scenario.press('act:1');
+    expect(scenario.play.hint).toContain('not connected');
+    expect(scenario.play.steps).toBe(2);
+    scenario.told = []; // the environment that received it is gone
+    scenario.here();
+    expect(scenario.play.demonstration.states).toEqual([0, 1, 2]);
   });
 
   it('has everything again after a reload, a lost connection and a lease that ran out', () => {
-    new Table().here().walk('choose:0', 'act:1', 'act:1', 'clear');
-    const reloaded = new Table();
+    new Scenario().here().walk('choose:0', 'act:1', 'act:1', 'clear');
+    const reloaded = new Scenario();
     expect(reloaded.play.steps).toBe(1);
     reloaded.here();
     expect(reloaded.play.demonstration.states).toEqual([0, 1]);

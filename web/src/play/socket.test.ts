@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { PlayMoves } from '../api/types';
-import { PlayLink } from './socket';
+import { PlaySocket } from './socket';
 
 const hello = { type: 'take', assignment: 3, token: 'secret' } as const;
 const moves: PlayMoves = { type: 'moves', number: 1, segments: [], known: 1 };
@@ -35,7 +35,7 @@ class Wire {
 
 let wires: Wire[];
 let heard: unknown[];
-let link: PlayLink;
+let socket: PlaySocket;
 const last = (): Wire => {
   const wire = wires.at(-1);
   if (wire === undefined) throw new Error('no socket was opened');
@@ -49,7 +49,7 @@ beforeEach(() => {
     wires.push(new Wire());
     return last() as unknown as WebSocket;
   };
-  link = new PlayLink(open, hello, {
+  socket = new PlaySocket(open, hello, {
     stage: (present) => heard.push(present),
     states: (news) => heard.push(news.number),
     lost: () => heard.push('lost'),
@@ -57,16 +57,16 @@ beforeEach(() => {
   });
 });
 afterEach(() => {
-  link.close();
+  socket.close();
   vi.useRealTimers();
 });
 
 describe('the play socket', () => {
   it('says who we are first, then carries moves there and states back', () => {
-    link.send(moves); // too early: nobody is there
+    socket.send(moves); // too early: nobody is there
     last().accept();
     last().say({ type: 'stage', present: true });
-    link.send(moves);
+    socket.send(moves);
     last().say({ type: 'states', number: 1, known: 1, states: [], ended: false, succeeded: false });
     expect(last().sent).toEqual([hello, moves]);
     expect(heard).toEqual([true, 1]);
@@ -107,7 +107,7 @@ describe('the play socket', () => {
 
   it('is silent after we left', async () => {
     last().accept();
-    link.close();
+    socket.close();
     last().say({ type: 'stage', present: true });
     await vi.advanceTimersByTimeAsync(60_000);
     expect([heard, wires.length]).toEqual([[], 1]);

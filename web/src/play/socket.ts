@@ -1,31 +1,32 @@
+// The play socket of a query: moves go to the learner, states come back.
 import type { PlayMoves, PlayStage, PlayStates, PlayTake } from '../api/types';
 import { delay, pause } from '../api/retry';
 
-export interface LinkEvents {
-  /** The learner's environment is there, or it is not. */
+export interface SocketEvents {
+  /** The learner's environment is connected, or it is not. */
   stage(present: boolean): void;
   states(news: PlayStates): void;
-  /** The connection is lost; another attempt follows by itself. */
+  /** The connection is lost; the next attempt follows automatically. */
   lost(): void;
-  /** The server will not have us here, and says why; 409: the query is not ours any more. */
+  /** The server refuses the connection and says why; 409: the lease is not ours any more. */
   refused(words: string, status: number): void;
 }
 
 type OpenSocket = () => WebSocket;
 
-const REFUSED = 4400; // and above: 4000 + the status of the refusal
-const PASSING = new Set([4408, 4429]); // and 4500 and above: may be otherwise the next time
+const REFUSED = 4400; // the close codes from here on are 4000 + the HTTP status of the refusal
+const PASSING = new Set([4408, 4429]); // these, and 4500 and above, may not last
 
-/** The play socket of one query, opened again whenever it is lost. */
-export class PlayLink {
+/** The socket of one query. When it is lost, it is opened again. */
+export class PlaySocket {
   readonly #open: OpenSocket;
   readonly #hello: PlayTake;
-  readonly #events: LinkEvents;
+  readonly #events: SocketEvents;
   readonly #over = new AbortController();
   #socket: WebSocket | null = null;
   #attempts = 0;
 
-  constructor(open: OpenSocket, hello: PlayTake, events: LinkEvents) {
+  constructor(open: OpenSocket, hello: PlayTake, events: SocketEvents) {
     this.#open = open;
     this.#hello = hello;
     this.#events = events;

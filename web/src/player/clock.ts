@@ -1,4 +1,5 @@
-/** Call `tick` with the frames that are due, as they come due, until the returned function is called. */
+// The clock of the player.
+/** Call `tick` with the number of frames that are due, until the returned function is called. */
 export function playing(pace: () => number, tick: (frames: number) => void): () => void {
   let shownAt = performance.now();
   let request = requestAnimationFrame(next);

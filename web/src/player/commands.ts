@@ -1,9 +1,10 @@
+// The commands of the player.
 import type { Command } from '../keys/registry';
 import { changeSpeed, jump, seek, step, toggle, type Player } from './player';
 
 type Move = (player: Player, stops: readonly number[]) => Player;
 
-/** What the player's keys do. */
+/** The moves of the player, by command. */
 export const MOVES: Partial<Record<Command, Move>> = {
   play: toggle,
   back: (player) => step(player, -1),

@@ -1,7 +1,8 @@
-/** Where the player stands. Pure: every function returns the next state. */
+// The player: its position, speed and moves on a tape. Pure: every function returns the next state.
+/** The state of the player. */
 export interface Player {
   readonly at: number; // frame
-  readonly first: number; // where playing starts over
+  readonly first: number; // where playing starts again
   readonly last: number;
   readonly playing: boolean;
   readonly speed: number; // index into SPEEDS
@@ -9,7 +10,7 @@ export interface Player {
 
 export const SPEEDS = [0.5, 1, 2, 4] as const;
 const FRAMES_PER_SECOND = 10;
-/** The first showing is quick: it never takes longer than this. */
+/** The first showing takes at most this long. */
 const FIRST_SHOWING_SECONDS = 1.6;
 
 export function player(first: number, last: number, speed = 1): Player {

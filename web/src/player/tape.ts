@@ -1,24 +1,25 @@
+// The tape: the trajectory of a query as frames, one per state.
 import type { Json, Segment } from '../api/types';
 import type { Player } from './player';
 
-/** One segment on the tape: frames `first` to `last`, both included. */
+/** A segment on the tape: the frames from `first` to `last`, both included. */
 export interface Stretch {
   readonly index: number;
   readonly subgoal: string | null;
   readonly first: number;
   readonly last: number;
   readonly actions: readonly string[];
-  /** False for the segments that came before, shown but not asked about. */
+  /** False for segments before those in question: they are only shown. */
   readonly asked: boolean;
 }
 
-/** A query's segments, joined: where one ends the next begins, so the state between them is one frame. */
+/** The joined segments of a query. The last state of a segment and the first of the next are one frame. */
 export interface Tape {
   readonly frames: readonly Json[];
-  /** The hash of a picture of each frame, where the learner sent one. */
+  /** The hash of each frame's picture; null where the learner sent none. */
   readonly pictures: readonly (string | null)[];
   readonly stretches: readonly Stretch[];
-  /** The frame where the asked segments begin. */
+  /** The frame where the segments in question begin. */
   readonly start: number;
 }
 
@@ -55,19 +56,19 @@ export function lastFrame(tape: Tape): number {
   return Math.max(0, tape.frames.length - 1);
 }
 
-/** The stretch a frame belongs to; a frame between two belongs to the one that begins there. */
+/** Return the stretch of a frame. A frame shared by two stretches belongs to the second. */
 export function stretchAt(tape: Tape, frame: number): Stretch | undefined {
   const within = tape.stretches.filter((stretch) => stretch.first <= frame && frame <= stretch.last);
   return within.at(-1);
 }
 
-/** The action that leads away from a frame, or null at the end. */
+/** Return the action taken at a frame, or null at the end. */
 export function actionAt(tape: Tape, frame: number): string | null {
   const stretch = stretchAt(tape, frame);
   return stretch?.actions[frame - stretch.first] ?? null;
 }
 
-/** The frames of the asked states, in order: every state an action was taken in, then the last one. */
+/** Return the frames of the states in question, in order: the states with an action, then the last state. */
 export function askedFrames(tape: Tape): number[] {
   const acting = tape.stretches
     .filter((stretch) => stretch.asked)
@@ -75,7 +76,7 @@ export function askedFrames(tape: Tape): number[] {
   return [...acting, lastFrame(tape)];
 }
 
-/** Frames where a subgoal was decided, and the last frame: what `[` and `]` jump between. */
+/** Return the frames where a subgoal was chosen, and the last frame. The keys `[` and `]` jump between them. */
 export function stops(tape: Tape): number[] {
   const all = [...tape.stretches.map((stretch) => stretch.first), lastFrame(tape)];
   return [...new Set(all)].sort((a, b) => a - b);

@@ -33,7 +33,7 @@ test('the end of a segment is a label too', () => {
   ]);
 });
 
-test('labels are named and read as on the page', () => {
+test('labels and their places are put in words', () => {
   expect(placeOf(ask('label_hi', []), mark(1))).toBe('Segment 2');
   expect(placeOf(ask('label_lo', []), mark(4))).toBe('State 5');
   expect(choicesWords(['go_to_target', 'east'])).toBe('go to target or east');

@@ -1,23 +1,24 @@
+// Feedback in words and places.
 import { readable } from '../api/names';
 import type { Answerable, Feedback } from '../api/types';
 import { askedFrames, lastFrame, type Tape } from '../player/tape';
 
 export type Mark = Feedback['marks'][number];
 
-/** The frame a label is about. */
+/** Return the frame that a label is about. */
 export function frameOf(ask: Answerable, tape: Tape, mark: Mark): number {
   if (ask.kind === 'inspect_full' || ask.kind === 'inspect_lo') return lastFrame(tape);
   if (ask.kind !== 'label_hi') return askedFrames(tape)[mark.place] ?? lastFrame(tape);
   return tape.stretches[ask.context.length + mark.place]?.first ?? tape.start;
 }
 
-/** What a label is about: "Segment 2", "State 5". */
+/** Return what a label is about: "Segment 2", "State 5". */
 export function placeOf(ask: Answerable, mark: Mark): string {
   if (ask.kind === 'inspect_full' || ask.kind === 'inspect_lo') return 'Verdict';
   return `${ask.kind === 'label_hi' ? 'Segment' : 'State'} ${mark.place + 1}`;
 }
 
-/** A label in words; the end of a segment is one too. */
+/** Return a label in words; the end of a segment is a label too. */
 export function labelWords(label: string | null): string {
   if (label === null) return 'nothing';
   if (label === '(done)') return 'done here';
@@ -29,7 +30,7 @@ export function choicesWords(right: readonly string[]): string {
   return right.map(labelWords).join(' or ');
 }
 
-/** Which label to look at first: the first wrong one, if any is. */
+/** Return the place of the first wrong label, else 0. */
 export function firstToSee(marks: readonly Mark[]): number {
   return Math.max(
     0,
@@ -37,7 +38,7 @@ export function firstToSee(marks: readonly Mark[]): number {
   );
 }
 
-/** "Right", "2 of 5 right". */
+/** Return the result in words: "Right", "2 of 5 right". */
 export function verdictWords(marks: readonly Mark[]): string {
   const right = marks.filter((mark) => mark.is_right).length;
   if (right === marks.length) return 'Right';

@@ -1,3 +1,4 @@
+// A practice session: one query after the other, each with feedback. Nothing is stored.
 import { api, unwrap, wordsOf } from '../api/client';
 import type { Answer, Answerable, Feedback, Practice, Vocabulary } from '../api/types';
 
@@ -8,11 +9,10 @@ interface PracticeQuery {
   readonly ask: Answerable;
 }
 
-/** Somebody practicing: one question after the other, each followed by what was right. Nothing is stored. */
 export class PracticeSession {
   phase: Phase = $state('loading');
   place = $state(0);
-  shown = $state(0); // how many questions have been put on the screen
+  shown = $state(0); // how many queries have been on the screen
   feedback: Feedback | null = $state.raw(null);
   problem: string | null = $state(null);
   results: readonly boolean[] = $state.raw([]); // by place, of this round
@@ -53,7 +53,7 @@ export class PracticeSession {
     }
   }
 
-  /** Go on without an answer, which counts as not right. */
+  /** Go to the next query without an answer, which counts as wrong. */
   skip(): void {
     this.results = [...this.results.slice(0, this.place), false];
     this.next();
@@ -64,7 +64,7 @@ export class PracticeSession {
     else this.phase = 'done';
   }
 
-  /** Answer the question before again. */
+  /** Answer this query again after its feedback, else the previous one. */
   back(): void {
     this.#show(Math.max(0, this.place - (this.phase === 'question' ? 1 : 0)));
   }
@@ -77,7 +77,7 @@ export class PracticeSession {
     this.phase = 'question';
   }
 
-  /** Demonstrations need a learner's environment, so there are none here. */
+  /** Return the queries of the practice file, except demonstrations: those need a learner's environment. */
   #queries(): readonly PracticeQuery[] {
     const queries = this.#practice?.queries ?? [];
     return queries.flatMap(({ id, ask }) => (ask.kind === 'hier_demo' ? [] : [{ id, ask }]));

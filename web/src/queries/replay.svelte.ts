@@ -1,3 +1,4 @@
+// The replay of a query: its trajectory in the player, with the labels of its answer.
 import type { Answer, Query, Run, Segment } from '../api/types';
 import type { Command } from '../keys/registry';
 import { MOVES } from '../player/commands';
@@ -5,7 +6,7 @@ import * as players from '../player/player';
 import { askedFrames, buildTape, lastFrame, stops, stretchAt, type Tape } from '../player/tape';
 import type { Label, Scene, Step } from '../player/scene';
 
-/** A query's trajectory in the player, with its answer marked: only to be watched. */
+/** A query in the player, to be watched. */
 export class Replay {
   readonly tape: Tape;
   player = $state.raw(players.player(0, 0));
@@ -16,7 +17,7 @@ export class Replay {
   readonly #stops: readonly number[];
   readonly #labels: readonly Label[];
 
-  /** `step`: what actions lead to, where the page knows it. */
+  /** `step` computes the next state, in domains where the page can. */
   constructor(query: Query, run: Run, step: Step | null) {
     this.#query = query;
     this.#run = run;
@@ -57,7 +58,7 @@ export class Replay {
   }
 }
 
-/** The learner's trajectory; of a demonstration the expert's, or only its start where its states are not known. */
+/** Return the learner's trajectory; of a demonstration, the annotator's, or only its start if states cannot be computed. */
 export function tapeOf({ ask, answer }: Pick<Query, 'ask' | 'answer'>, step: Step | null): Tape {
   if (ask.kind !== 'hier_demo') return buildTape(ask.context, ask.segments);
   const start: Segment = { subgoal: null, states: [ask.state], actions: [], frames: [] };
@@ -71,7 +72,7 @@ export function tapeOf({ ask, answer }: Pick<Query, 'ask' | 'answer'>, step: Ste
   return buildTape(ask.context, segments);
 }
 
-/** What the expert said about each state, as marks on the picture. */
+/** Return the labels of the answer, as a renderer draws them. */
 export function labelsOf(answer: Answer | null, tape: Tape): Label[] {
   if (answer === null || (answer.kind !== 'label_lo' && answer.kind !== 'label_full')) return [];
   const frames = askedFrames(tape);

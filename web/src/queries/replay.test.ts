@@ -7,7 +7,7 @@ import { labelsOf, tapeOf } from './replay.svelte';
 describe('the replay of a query', () => {
   const segment = { subgoal: 'north', states: [0, 1, 2, 3], actions: ['up', 'up', 'left'], frames: [] };
 
-  it('shows where the expert would have ended the segment, and no label after that', () => {
+  it('shows where the segment should have ended, and no label after that', () => {
     const labels = labelsOf(
       { kind: 'label_lo', actions: ['up', 'down', null], terminations: [false, false, true, false] },
       buildTape([], [segment]),
@@ -19,7 +19,7 @@ describe('the replay of a query', () => {
     ]);
   });
 
-  it('shows a demonstration on a maze, whose steps the page knows, and elsewhere its start', () => {
+  it('shows a demonstration where the page can compute steps, and only its start elsewhere', () => {
     const ask = { kind: 'hier_demo', context: [], state: [5, 2] } as unknown as Query['ask'];
     const segments = [
       { subgoal: 'north', actions: ['up', 'up'] },

@@ -19,11 +19,11 @@ it('says how each time it was handed out ended', () => {
     content: { kind: 'inspect_full', verdict: 'fail' },
   } as const;
   expect(wordsOfEnding({ ...past, state: 'skipped', reason: 'too dark' })).toBe('skipped: too dark');
-  expect(wordsOfEnding({ ...past, state: 'expired' })).toBe('the lease ran out');
+  expect(wordsOfEnding({ ...past, state: 'expired' })).toBe('lease expired');
   expect(wordsOfEnding({ ...past, state: 'answered', answer: { ...answer, fate: 'retracted' } })).toBe(
     'answered (✗ fail), then taken back',
   );
   expect(wordsOfEnding({ ...past, state: 'expired', answer: { ...answer, fate: 'late' } })).toBe(
-    'answered too late (✗ fail), not charged',
+    'answered after the lease expired (✗ fail), not charged',
   );
 });

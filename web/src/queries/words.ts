@@ -1,7 +1,8 @@
+// Answers, leases and ledger entries in words.
 import type { Answer, LedgerEntry, PastAssignment } from '../api/types';
 import { count } from '../ui/format';
 
-/** What an answer says, in a few words. */
+/** Return an answer in a few words. */
 export function wordsOfAnswer(answer: Answer | null): string {
   if (answer === null) return '';
   switch (answer.kind) {
@@ -18,28 +19,29 @@ export function wordsOfAnswer(answer: Answer | null): string {
   }
 }
 
-/** How handing a query out ended. */
+/** Return in words how a lease ended. */
 export function wordsOfEnding(assignment: PastAssignment): string {
   const { answer, reason, state } = assignment;
   if (answer !== null) {
     const said = wordsOfAnswer(answer.content);
-    if (answer.fate === 'late') return `answered too late (${said}), not charged`;
+    if (answer.fate === 'late') return `answered after the lease expired (${said}), not charged`;
     return answer.fate === 'retracted' ? `answered (${said}), then taken back` : `answered: ${said}`;
   }
   switch (state) {
     case 'live':
-      return 'holds it now';
+      return 'leased now';
     case 'skipped':
       return reason ? `skipped: ${reason}` : 'skipped';
     case 'released':
-      return reason ? `given back: ${reason}` : 'given back';
+      return reason ? `released: ${reason}` : 'released';
     case 'expired':
-      return 'the lease ran out';
+      return 'lease expired';
     default:
       return state;
   }
 }
 
+/** Return a number as text, with a true minus sign. */
 export function signed(value: number, format: (value: number) => string): string {
   return value < 0 ? `−${format(-value)}` : format(value);
 }

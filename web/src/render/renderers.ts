@@ -1,3 +1,4 @@
+// The renderers, by the name in the vocabulary of a run. A new renderer is added here.
 import type { Component } from 'svelte';
 import MazeView from '../maze/MazeView.svelte';
 import { stepMaze } from '../maze/steps';
@@ -6,14 +7,14 @@ import type { Scene, Step } from '../player/scene';
 
 type Renderer = Component<{ scene: Scene }>;
 
-/** By the name a run's vocabulary gives; of any other domain the pictures its learner sent are shown, else text. */
+/** Other domains are shown by the pictures that the learner sent, or as text. */
 const RENDERERS: Readonly<Record<string, Renderer>> = { maze: MazeView };
 
 export function rendererOf(name: string): Renderer {
   return Object.hasOwn(RENDERERS, name) ? (RENDERERS[name] ?? PictureView) : PictureView;
 }
 
-/** Domains whose every step the page knows without the learner: what a demonstration's actions came to. */
+/** Domains whose steps the page can compute, so that it can show a demonstration without the learner. */
 const STEPS: Readonly<Record<string, Step>> = { maze: stepMaze };
 
 export function stepOf(name: string): Step | null {

@@ -1,4 +1,4 @@
-// Which view an address leads to. Pure.
+// Addresses: which view they lead to, and their parameters. Pure.
 
 export type Route =
   | { readonly view: 'login' }

@@ -1,4 +1,5 @@
-import { api, unwrap, Refused, wordsOf } from '../api/client';
+// A run that is kept up to date while it is on the screen.
+import { api, Refused, TRYING_AGAIN, unwrap, wordsOf } from '../api/client';
 import type { Costs, Curves, Run } from '../api/types';
 import { updatedCurves } from '../curves/curves';
 import { throttled, watch, type RunEvent } from '../api/live';
@@ -7,7 +8,7 @@ const REFRESH_MS = 1_000;
 
 type Part = 'run' | 'costs' | 'curves' | 'queries' | 'ledger';
 const PARTS: readonly Part[] = ['run', 'costs', 'curves', 'queries', 'ledger'];
-/** What an event makes stale; the rest stays as it is. */
+/** The parts that an event makes stale. */
 const STALE: Readonly<Record<RunEvent, readonly Part[]>> = {
   asked: ['run', 'queries'],
   answered: ['run', 'costs', 'queries', 'ledger'],
@@ -20,7 +21,6 @@ const STALE: Readonly<Record<RunEvent, readonly Part[]>> = {
 
 type Changes = Pick<Run, 'name' | 'budget' | 'priority'> & { state: Run['state'] };
 
-/** A run, kept up to date while somebody looks at it. */
 export class WatchedRun {
   run: Run | null = $state.raw(null);
   curves: Curves | null = $state.raw(null);
@@ -28,21 +28,21 @@ export class WatchedRun {
   problem: string | null = $state(null);
   isMissing = $state(false);
   isLive = $state(false);
-  /** Grow when a table of queries or of charges is no longer what it was. */
+  /** Counters that grow when the queries or the ledger have changed. */
   queriesChanged = $state(0);
   ledgerChanged = $state(0);
 
   readonly #id: string;
   // eslint-disable-next-line svelte/prefer-svelte-reactivity -- nothing on the screen depends on it
   readonly #stale = new Set<Part>(PARTS);
-  #missed = false; // then the curves are loaded from their beginning
+  #missed = false; // events may be missing: load the curves from their beginning
   #stopped = false;
 
   constructor(id: string) {
     this.#id = id;
   }
 
-  /** Returns how to stop. */
+  /** Keep the run up to date until the returned function is called. */
   start(): () => void {
     const load = throttled(() => this.#load(), REFRESH_MS);
     load();
@@ -60,7 +60,7 @@ export class WatchedRun {
     };
   }
 
-  /** Change the run; throws the server's refusal. */
+  /** Change the run; throw the server's refusal. */
   async change(changes: Partial<Changes>): Promise<void> {
     const params = { path: { run: this.#id } };
     this.run = await unwrap(api.PATCH('/api/v1/runs/{run}', { params, body: changes }));
@@ -76,7 +76,7 @@ export class WatchedRun {
     } catch (error) {
       for (const part of stale) this.#stale.add(part);
       this.isMissing = error instanceof Refused && error.status === 404;
-      this.problem = wordsOf(error);
+      this.problem = wordsOf(error, TRYING_AGAIN);
     }
   }
 

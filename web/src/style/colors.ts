@@ -1,8 +1,9 @@
-/** What a CSS color comes to here and now, light or dark; for canvases, which know no custom properties. */
+// Colors of the style sheet, for canvases.
+/** Return the computed value of a CSS color in the current theme. Canvases do not understand custom properties. */
 export function readColor(element: Element, expression: string): string {
-  const probe = element.appendChild(document.createElement('span'));
-  probe.style.color = expression;
-  const { color } = getComputedStyle(probe);
-  probe.remove();
+  const sample = element.appendChild(document.createElement('span'));
+  sample.style.color = expression;
+  const { color } = getComputedStyle(sample);
+  sample.remove();
   return color;
 }

@@ -1,9 +1,10 @@
+// The theme: light, dark, or the system's.
 export type Theme = 'system' | 'light' | 'dark';
 export const THEMES: readonly Theme[] = ['system', 'light', 'dark'];
 
 const KEY = 'waypost:theme';
 
-/** Light, dark, or as the system has it; remembered, and applied before the first paint by public/theme.js. */
+/** The chosen theme. The browser keeps it, and public/theme.js applies it before the first paint. */
 class ThemeSwitch {
   choice: Theme = $state(remembered());
   systemIsDark = $state(false);
@@ -26,7 +27,7 @@ class ThemeSwitch {
       if (theme === 'system') localStorage.removeItem(KEY);
       else localStorage.setItem(KEY, theme);
     } catch {
-      // Storage may be off; the choice then lasts as long as the page.
+      // Storage may be off; then the choice lasts until the page is reloaded.
     }
   }
 }

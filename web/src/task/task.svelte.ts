@@ -1,3 +1,4 @@
+// The state of one query on the screen, and what every key does.
 import type { Answer, Answerable, Vocabulary } from '../api/types';
 import { bindingsFor, type Command } from '../keys/registry';
 import { answerOf, choose, EDITS, HINTS, moveTo, newLabels, type Labels } from '../labels/labels';
@@ -13,7 +14,7 @@ export interface TaskOptions {
   readonly vocabulary: Vocabulary;
   readonly draft: number | null; // what the labels are kept under; null: not kept
   readonly speed: number;
-  readonly still: boolean; // nothing moves unless asked to
+  readonly still: boolean; // reduced motion: nothing plays by itself
 }
 
 export interface TaskEvents {
@@ -22,7 +23,7 @@ export interface TaskEvents {
   undo(): void;
 }
 
-/** One query on the screen: where its player stands, what is labeled, and what every key does to both. */
+/** One query on the screen: its player and its labels, and what every key does to both. */
 export class Task {
   readonly ask;
   readonly tape;
@@ -65,7 +66,7 @@ export class Task {
     this.#showCursor();
   }
 
-  /** Look at a frame; for action labels that is also the state to label next. */
+  /** Show a frame. With action labels, its state is then the next one to label. */
   seek(frame: number): void {
     this.#move(players.seek(this.player, frame));
   }
@@ -102,7 +103,7 @@ export class Task {
 
   #submitAll(): void {
     if (this.answer) this.#events.submit(this.answer);
-    else this.hint = 'Not everything is labeled: the learner made no choice that could be kept here.';
+    else this.hint = 'A label is missing here, and the learner made no choice to keep. Choose one.';
   }
 
   #edit(change: (labels: Labels) => Labels, hint = ''): void {
@@ -127,7 +128,7 @@ export class Task {
     );
   }
 
-  /** An inspection plays at once, and fast; labels begin at the first state. */
+  /** Return the first position: an inspection plays at once, and fast; labels begin at the first state. */
   #firstLook(): players.Player {
     const { speed, still } = this.#options;
     const begin = players.player(this.tape.start, lastFrame(this.tape), speed);
@@ -137,7 +138,7 @@ export class Task {
     return players.toggle(begin);
   }
 
-  /** While labeling, the map rests on what is to be labeled. */
+  /** While labeling, show the frame that is to be labeled. */
   #showCursor(): void {
     if (this.labels === null) return;
     const { cursor, kind } = this.labels;

@@ -1,3 +1,4 @@
+// Numbers, times and counts as text.
 const NUMBER = new Intl.NumberFormat('en', { maximumFractionDigits: 2 });
 const PERCENT = new Intl.NumberFormat('en', { style: 'percent', maximumFractionDigits: 1 });
 

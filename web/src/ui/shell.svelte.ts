@@ -1,12 +1,12 @@
+// The state that all views share: who is signed in, which keys work, how many answers are unsaved.
 import { api, unwrap } from '../api/client';
 import type { Me, Vocabulary } from '../api/types';
-import { PAGE_BINDINGS, type Binding, type Command } from '../keys/registry';
+import { COMMON_BINDINGS, type Binding, type Command } from '../keys/registry';
 import { loadKeymap, remapped, saveKeymap, type Keymap } from '../keys/remap';
 
-/** What the frame of the page shows for the view inside it. */
 class Shell {
   keymap: Keymap = $state.raw(loadKeymap(localStorage));
-  #given: readonly Binding[] = $state.raw(PAGE_BINDINGS);
+  #given: readonly Binding[] = $state.raw(COMMON_BINDINGS);
   readonly bindings: readonly Binding[] = $derived(remapped(this.#given, this.keymap));
   unsaved = $state(0);
   me: Me | null = $state.raw(null);
@@ -24,18 +24,18 @@ class Shell {
     }
   }
 
-  /** Have a view answer to these keys until the returned function is called. */
+  /** Use a view's keys, and run their commands, until the returned function is called. */
   use(bindings: readonly Binding[], run: (command: Command) => void): () => void {
     this.#given = bindings;
     this.#run = run;
     return () => {
       if (this.#run !== run) return;
-      this.#given = PAGE_BINDINGS;
+      this.#given = COMMON_BINDINGS;
       this.#run = null;
     };
   }
 
-  /** Have a key do something, or (null) whatever came with the page; `id` as `idOf` gives it. */
+  /** Give a binding another key; with null, its default keys. `id` is as `idOf` returns it. */
   remap(id: string, key: string | null): void {
     const { [id]: _, ...others } = this.keymap;
     this.setKeymap(key === null ? others : { ...others, [id]: key });

@@ -1,4 +1,4 @@
-// Whether the annotator is active. The server's clock counts the seconds.
+// Notes whether the annotator is active. The server counts the active seconds.
 
 const SIGNS = ['keydown', 'pointerdown', 'pointermove', 'wheel'] as const;
 

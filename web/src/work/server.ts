@@ -1,8 +1,8 @@
-// The requests of the work view, answers aside: lease a query, keep it, give it back, take an answer back.
+// The requests of the work view, except answers: lease a query, renew and release the lease, take an answer back.
 import { api, unwrap } from '../api/client';
 import { KINDS, type Assignment, type LeaseRequest, type Me } from '../api/types';
 
-/** What proves to the server that a lease is ours. */
+/** The proof that a lease is ours. */
 export interface LeaseProof {
   readonly assignment: number;
   readonly token: string;

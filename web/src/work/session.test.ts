@@ -22,7 +22,7 @@ function assignment(id: number, episode = id): Assignment {
   return { id, token: `t${id}`, lease_seconds: 60, query } as unknown as Assignment;
 }
 
-/** A server's side that leases what it is given, in order. */
+/** A server that leases the given assignments, in order. */
 class FakeServer implements WorkServer {
   offered: Assignment[] = [];
   later: Assignment[] = []; // leased ahead only
@@ -80,7 +80,7 @@ describe('a session', () => {
     vi.useRealTimers();
   });
 
-  it('shows what it leased ahead before the answer has arrived', async () => {
+  it('shows the query leased ahead before the answer is stored', async () => {
     answer.mockReturnValue(new Promise(() => undefined));
     await started([assignment(1)], [assignment(2)]);
     expect(prepare).toHaveBeenCalledWith(expect.objectContaining({ id: 2 }));
@@ -89,7 +89,7 @@ describe('a session', () => {
     expect(answer.mock.calls[0]?.[1]).toMatchObject({ wait: 0, ahead: true });
   });
 
-  it('counts an answer that was stored while its numbers were on their way', async () => {
+  it('counts an answer that was stored while the numbers were loading', async () => {
     const today = (answers: number): Me => ({ answers_today: answers }) as Me;
     let arrive = (_: Me): void => undefined;
     server.me
@@ -104,7 +104,7 @@ describe('a session', () => {
     expect(session.me?.answers_today).toBe(1);
   });
 
-  it('without one, shows what comes with the receipt', async () => {
+  it('shows the query that comes with the receipt if none is leased ahead', async () => {
     answer.mockResolvedValue(receipt(assignment(2)));
     await started([assignment(1)]);
     session.submit(PASS);
@@ -114,7 +114,7 @@ describe('a session', () => {
     expect(answer.mock.calls[0]?.[1]).toMatchObject({ wait: 0.25, ahead: false });
   });
 
-  it('goes on with the episode on the screen before others that were leased earlier', async () => {
+  it('shows queries of the episode on the screen before others that were leased earlier', async () => {
     server.retract.mockResolvedValue(assignment(1, 1));
     answer.mockResolvedValueOnce(receipt(assignment(3, 5))).mockResolvedValueOnce(receipt(assignment(4, 1)));
     await started([assignment(1, 1)], [assignment(2, 1)]);
@@ -130,7 +130,7 @@ describe('a session', () => {
     expect(shown()).toBe(3);
   });
 
-  it('asks ahead once at a time, and again when an answer brought nothing', async () => {
+  it('leases ahead with one request at a time, and again when a receipt brought no query', async () => {
     const lease = vi.spyOn(server, 'lease');
     answer.mockResolvedValue(receipt(null));
     await started([assignment(1)], [assignment(2)]);
@@ -140,7 +140,7 @@ describe('a session', () => {
     expect(lease).toHaveBeenCalledTimes(3);
   });
 
-  it('holds two ahead at most, and gives the third back', async () => {
+  it('keeps at most two queries ahead, and releases the third', async () => {
     answer.mockResolvedValue(receipt(assignment(3)));
     server.retract.mockResolvedValue(assignment(1));
     await started([assignment(1)], [assignment(2)]);
@@ -158,7 +158,7 @@ describe('a session', () => {
     expect(shown()).toBe(2);
   });
 
-  it('says when the page goes, and what it still answers', async () => {
+  it('says when the tab closes, and which answers it still sends', async () => {
     await started([assignment(1)], [assignment(2)]);
     answer.mockReturnValue(new Promise(() => undefined));
     session.submit(PASS);
@@ -167,7 +167,7 @@ describe('a session', () => {
     expect(shown()).toBeUndefined();
   });
 
-  it('comes back as another page', async () => {
+  it('comes back as another tab', async () => {
     await started([assignment(1)]);
     session.leave();
     const before = server.requested?.tab;
@@ -176,7 +176,7 @@ describe('a session', () => {
     expect(server.requested?.tab).not.toBe(before);
   });
 
-  it('gives back what comes after it was stopped', async () => {
+  it('releases a query that comes after it was stopped', async () => {
     let arrive: (found: Assignment) => void = () => undefined;
     await started([assignment(1)]);
     answer.mockReturnValue(new Promise((resolve) => (arrive = (next) => resolve(receipt(next)))));
@@ -187,7 +187,7 @@ describe('a session', () => {
     expect(server.released).toContain(2);
   });
 
-  it('keeps what is ahead alive, and says of the one on the screen alone that somebody is at it', async () => {
+  it('renews the leases ahead, and reports activity only for the query on the screen', async () => {
     await started([assignment(1)], [assignment(2)]);
     active = true;
     await vi.advanceTimersByTimeAsync(20_000);
@@ -198,7 +198,7 @@ describe('a session', () => {
     ]);
   });
 
-  it('after a sleep past its leases shows none of them again', async () => {
+  it('shows none of its queries again after a sleep past their leases', async () => {
     await started([assignment(1)], [assignment(2)]);
     server.renew.mockRejectedValue(LATE);
     server.offered = [assignment(7)];
@@ -207,7 +207,7 @@ describe('a session', () => {
     expect(session.notice?.text).toContain('went back to the queue');
   });
 
-  it('after an answer that came too late looks whether the next is still its own', async () => {
+  it('checks the lease of the next query after an answer that came too late', async () => {
     await started([assignment(1)], [assignment(2)]);
     answer.mockRejectedValue(LATE);
     server.renew.mockRejectedValue(LATE);
@@ -217,14 +217,14 @@ describe('a session', () => {
     expect(shown()).toBe(7);
   });
 
-  it('skips to what is ahead, or to what came while it skipped', async () => {
+  it('skips to the query that is leased ahead', async () => {
     await started([assignment(1)], [assignment(2)]);
     await session.skip('dark');
     expect([shown(), server.released]).toEqual([2, [1]]);
     expect(session.notice?.text).toContain('Skipped');
   });
 
-  it('goes on while the server is away, with what it has', async () => {
+  it('continues with the queries it has while the server is away', async () => {
     await started([assignment(1)], [assignment(2)]);
     answer.mockRejectedValue(new Unreachable());
     session.submit(PASS);
