@@ -12,7 +12,7 @@ from tests.server.kit import VOCABULARY, Json, Service, in_process, query, right
 
 from waypost import wire
 from waypost_server.app import create_app
-from waypost_server.db.engine import Tx
+from waypost_server.db.transaction import Tx
 from waypost_server.leases import service as leases
 from waypost_server.settings import Settings
 

@@ -7,9 +7,10 @@ from alembic.autogenerate import compare_metadata
 from alembic.runtime.migration import MigrationContext
 from sqlalchemy import text
 
-from waypost_server.db.engine import BadDatabase, Database, Tx, parse
+from waypost_server.db.engine import BadDatabase, Database, parse
 from waypost_server.db.schema import NewerStore
 from waypost_server.db.tables import metadata
+from waypost_server.db.transaction import Tx
 
 
 def differences(tx: Tx) -> list[object]:

@@ -238,7 +238,7 @@ skips = Table(
 )
 
 # Pages that have gone: what is still under way to them is leased to nobody.
-departures = Table(
+closed_tabs = Table(
     "departures",
     metadata,
     Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
@@ -257,7 +257,7 @@ presence = Table(
 )
 
 # How long an annotator has been active since the last answer. A person's time counts once, whatever they hold.
-activity = Table(
+active_time = Table(
     "activity",
     metadata,
     Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
@@ -319,7 +319,7 @@ gold = Table(
 )
 
 # One gold query put to one annotator: a query in the run's shadow, and how many of its labels were right.
-probes = Table(
+gold_showings = Table(
     "probes",
     metadata,
     Column("query_id", RowId, ForeignKey("queries.id"), primary_key=True),
