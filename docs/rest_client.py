@@ -1,4 +1,4 @@
-"""Lease and answer one query over REST, with the standard library only: `WAYPOST_TOKEN=wp_... python rest_client.py SERVER`."""
+"""Lease and answer one query over REST, with only the standard library: `python rest_client.py SERVER`."""
 
 import json
 import os
