@@ -75,7 +75,7 @@ def _results(tx: Tx, run: str) -> list[wire.EpisodeResult]:
     return [wire.EpisodeResult.model_validate_json(row.result) for row in rows]
 
 
-def _cumulative(reported: Sequence[int], amounts: Iterable[tuple[int, float]]) -> list[float]:
+def cumulative(reported: Sequence[int], amounts: Iterable[tuple[int, float]]) -> list[float]:
     """Return the running sum of (episode, amount) pairs at each reported episode. The pairs are in episode order."""
     sums: list[float] = []
     pending = iter([*amounts, (2**63, 0)])
@@ -103,11 +103,11 @@ def curves(tx: Tx, run: str, after: int = -1) -> wire.Curves:
         episode=reported[first:],
         success_rate=trailing(tests)[first:],
         test_success=tests[first:],
-        cost=_units(_cumulative(reported, ((entry.episode, entry.units) for entry in spent)))[first:],
-        lo_cost=_units(_cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent)))[first:],
-        seconds=_cumulative(reported, ((entry.episode, entry.seconds) for entry in spent))[first:],
-        active_seconds=_cumulative(reported, ((entry.episode, entry.active_seconds) for entry in spent))[first:],
-        cost_by_kind={kind: _units(_cumulative(reported, by_kind[kind]))[first:] for kind in wire.KINDS},
+        cost=_units(cumulative(reported, ((entry.episode, entry.units) for entry in spent)))[first:],
+        lo_cost=_units(cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent)))[first:],
+        seconds=cumulative(reported, ((entry.episode, entry.seconds) for entry in spent))[first:],
+        active_seconds=cumulative(reported, ((entry.episode, entry.active_seconds) for entry in spent))[first:],
+        cost_by_kind={kind: _units(cumulative(reported, by_kind[kind]))[first:] for kind in wire.KINDS},
         hi_labels=[result.hi_labels for result in results[first:]],
         lo_samples=list(accumulate(result.train_steps for result in results))[first:],
         learner_seconds=list(accumulate(result.seconds for result in results))[first:],
@@ -125,7 +125,7 @@ def costs(tx: Tx, run: str) -> wire.Costs:
     spent = _ledger(tx, run)
     by_kind = {kind: _sum([entry for entry in spent if entry.kind == kind]) for kind in wire.KINDS}
     total = _sum(spent)
-    cost = _units(_cumulative(reported, ((entry.episode, entry.units) for entry in spent)))
+    cost = _units(cumulative(reported, ((entry.episode, entry.units) for entry in spent)))
     return wire.Costs(
         total=total.units,
         lo_total=total.lo_units,
@@ -134,7 +134,7 @@ def costs(tx: Tx, run: str) -> wire.Costs:
         by_kind=by_kind,
         reserved=to_units(row.reserved),
         budget=None if row.budget is None else to_units(row.budget),
-        first_at={level: _first_at(float(level), reported, tests, cost) for level in LEVELS},
+        first_at={level: first_at(float(level), reported, tests, cost) for level in LEVELS},
     )
 
 
@@ -148,7 +148,7 @@ def _sum(spent: Sequence[Spent]) -> wire.CostOfKind:
     )
 
 
-def _first_at(
+def first_at(
     level: float, reported: Sequence[int], tests: Sequence[bool | None], cost: Sequence[float]
 ) -> wire.Milestone | None:
     """Return the first episode where the rate over a full window of tests reached a level."""
