@@ -30,6 +30,7 @@ from waypost_server.runs import routes as runs
 from waypost_server.settings import Settings
 from waypost_server.users import routes as users
 from waypost_server.users import session_routes as sessions
+from waypost_server.watch import event_routes as event_streams
 from waypost_server.watch import routes as watch
 from waypost_server.watch import system_routes as system
 
@@ -52,7 +53,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lambda app: _lifespan(app, chosen),
     )
     api = APIRouter(prefix=API)
-    for module in (runs, queries, leases, answers, play, watch, frames, users, sessions, gold, practice):
+    for module in (runs, queries, leases, answers, play, watch, event_streams, frames, users, sessions, gold, practice):
         api.include_router(module.router)
     app.include_router(api)
     app.include_router(system.router)
