@@ -66,16 +66,16 @@ def test_serve_lets_some_administrator_in_whoever_is_left(sqlite_url: str) -> No
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["user", "add", "x", "--role", "king"], "'king' is no role; choose one of admin, learner, annotator, viewer."),
+        (["user", "add", "x", "--role", "king"], "'king' is not a role; choose one of admin, learner, annotator, viewer."),
         (["user", "add", ""], "cannot be a user's name"),
-        (["user", "list", "--database", "nonsense"], "'nonsense' is no database URL"),
+        (["user", "list", "--database", "nonsense"], "'nonsense' is not a database URL"),
         (
             ["user", "list", "--database", "sqlite:////no/such/folder/x.db"],
             "Cannot open sqlite:////no/such/folder/x.db",
         ),
         (["token", "create", "nobody"], "There is no user named 'nobody'"),
         (["user", "role", "nobody", "viewer"], "There is no user named 'nobody'"),
-        (["user", "role", "nobody", "king"], "'king' is no role"),
+        (["user", "role", "nobody", "king"], "'king' is not a role"),
         (["token", "revoke", "77"], "There is no token 77."),
         (["login-link", "nobody"], "There is no user named 'nobody'"),
         (["serve", "--lease", "-1"], "The setting lease_seconds is not valid"),
