@@ -66,7 +66,10 @@ def test_serve_lets_some_administrator_in_whoever_is_left(sqlite_url: str) -> No
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["user", "add", "x", "--role", "king"], "'king' is not a role; choose one of admin, learner, annotator, viewer."),
+        (
+            ["user", "add", "x", "--role", "king"],
+            "'king' is not a role; choose one of admin, learner, annotator, viewer.",
+        ),
         (["user", "add", ""], "cannot be a user's name"),
         (["user", "list", "--database", "nonsense"], "'nonsense' is not a database URL"),
         (
