@@ -36,7 +36,7 @@ _DUE = (
     .join(_shadow, _shadow.c.gold_of == _own.c.id)
     .where(query_table.c.id == bindparam("query"), _own.c.gold_rate > 0)
 )
-_PROBE = (
+_SHOWING = (
     select(gold_showings.c.query_id, query_table.c.state)
     .join(query_table, query_table.c.id == gold_showings.c.query_id)
     .where(gold_showings.c.user_id == bindparam("user"), gold_showings.c.gold_id == gold.c.id)
@@ -111,7 +111,7 @@ def _choose(tx: Tx, user: int, kinds: Sequence[wire.Kind] | None, run: str) -> R
         select(gold.c.id, gold.c.ask)
         .where(gold.c.run_id == run, gold.c.retired_at.is_(None))
         .where(gold.c.author_id.is_distinct_from(bindparam("user")))
-        .where(~skipped, ~_PROBE.where(query_table.c.state == "leased").correlate(gold).exists())
+        .where(~skipped, ~_SHOWING.where(query_table.c.state == "leased").correlate(gold).exists())
         .order_by(_TIMES, _ORDER, gold.c.id)
         .limit(1)
     )
@@ -123,7 +123,7 @@ def _choose(tx: Tx, user: int, kinds: Sequence[wire.Kind] | None, run: str) -> R
 def _open_showing(tx: Tx, user: int, item: int) -> int | None:
     """Return the open query of an earlier showing that this annotator did not answer, if there is one."""
     open_now = (gold_showings.c.gold_id == item, query_table.c.state == "open")
-    return tx.conn.execute(_PROBE.where(*open_now).correlate(None), {"user": user}).scalar()
+    return tx.conn.execute(_SHOWING.where(*open_now).correlate(None), {"user": user}).scalar()
 
 
 def _show(tx: Tx, user: int, chosen: Row[*tuple[Any, ...]], due: Row[Any]) -> int:

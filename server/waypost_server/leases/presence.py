@@ -15,13 +15,13 @@ from waypost_server.db.transaction import Tx
 
 REFRESH_SECONDS = 3.0
 
-_KNOWN = select(presence).where(presence.c.user_id == bindparam("user"))
+_ROW_OF = select(presence).where(presence.c.user_id == bindparam("user"))
 
 
 def record(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None) -> None:
     """Record that an annotator asks for a query; while they wait, only every `REFRESH_SECONDS`."""
     names = None if kinds is None else ",".join(sorted(kinds))
-    known = tx.conn.execute(_KNOWN, {"user": user}).one_or_none()
+    known = tx.conn.execute(_ROW_OF, {"user": user}).one_or_none()
     if known and (known.run_id, known.kinds) == (run, names) and known.asked_at > tx.now - REFRESH_SECONDS:
         return
     values: dict[str, Any] = {"run_id": run, "kinds": names, "asked_at": tx.now}
