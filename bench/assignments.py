@@ -25,6 +25,7 @@ from typing import Any
 import httpx2
 from tests.conftest import Cluster, postgresql_binaries
 
+from waypost_server.auth import tokens
 from waypost_server.db.engine import Database
 from waypost_server.users import service as users
 
@@ -51,7 +52,7 @@ def serving(database: str) -> Iterator[tuple[str, int, dict[str, str], list[dict
 
     def headers(name: str, role: Any) -> dict[str, str]:
         user = db.write_now(lambda tx: users.ensure_user(tx, name, role))
-        return {"Authorization": f"Bearer {db.write_now(lambda tx: users.create_token(tx, user.id, '')).token}"}
+        return {"Authorization": f"Bearer {db.write_now(lambda tx: tokens.create_token(tx, user.id, '')).token}"}
 
     learner = headers("learner", "learner")
     annotators = [headers(f"annotator{n}", "annotator") for n in range(max(ANNOTATORS))]

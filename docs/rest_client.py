@@ -1,4 +1,4 @@
-"""A whole annotator in plain REST, with nothing but Python: `WAYPOST_TOKEN=wp_... python rest_client.py SERVER`."""
+"""Lease and answer one query over REST, with only the standard library: `python rest_client.py SERVER`."""
 
 import json
 import os
@@ -17,9 +17,9 @@ def call(method, path, body=None):
 
 assignment = call("POST", "/assignments", {"kinds": ["inspect_full"], "wait": 30})
 if assignment is None:
-    sys.exit("Nobody asked anything for 30 seconds.")
+    sys.exit("No query arrived within 30 seconds.")
 run, ask = assignment["run"]["id"], assignment["query"]["ask"]
-arrived = ask["segments"][-1]["states"][-1] == ask["instance"]["goal"]  # so the maze's JSON view says
+arrived = ask["segments"][-1]["states"][-1] == ask["instance"]["goal"]  # the maze's JSON view has the goal
 answer = {"kind": "inspect_full", "verdict": "pass" if arrived else "fail"}
 receipt = call("POST", f"/assignments/{assignment['id']}/answer", {"token": assignment["token"], "answer": answer})
 print(f"{ask['question']} {answer['verdict']}: {receipt['units']:g} unit, query {receipt['query']}")

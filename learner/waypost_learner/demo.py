@@ -13,6 +13,7 @@ from sqlalchemy import exists, select
 
 from waypost import wire
 from waypost_server import serving
+from waypost_server.auth import tokens
 from waypost_server.cli import login_url
 from waypost_server.db.engine import Database
 from waypost_server.db.tables import queries
@@ -39,7 +40,7 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
 
         def start(name: str, role: wire.Role, *command: str) -> subprocess.Popen[bytes]:
             user = served.db.write_now(lambda tx: users.ensure_user(tx, name, role))
-            token = served.db.write_now(lambda tx: users.create_token(tx, user.id, "demo")).token
+            token = served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "demo")).token
             process = subprocess.Popen(  # noqa: S603 (our own command)
                 [sys.executable, "-m", "waypost_learner.cli", *command, "--server", served.url],
                 env={**os.environ, "WAYPOST_TOKEN": token},

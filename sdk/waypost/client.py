@@ -1,7 +1,7 @@
-"""The REST client (`/api/v1`): what a learner and an annotator program need, one method a call.
+"""The client of the REST API (`/api/v1`): one method per call, for learners and for annotator programs.
 
-A call whose reply is lost is sent again until `patience` is over: asking, answering, using and reporting are
-idempotent on the server, so a server that was killed and came back sees nothing twice.
+A call without a reply is repeated until `patience` is over. Asking, answering, using and reporting are idempotent on
+the server, so a repeated call has no second effect, even if the server was killed and restarted.
 """
 
 import base64
@@ -21,14 +21,14 @@ M = TypeVar("M", bound=BaseModel)
 PATIENCE_SECONDS = 300.0
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.05, 2.0
 _HASHES_AT_ONCE = 1_000
-_UPLOAD_BYTES = 2 * 2**20  # of a request body with frames; one frame alone may be larger
+_UPLOAD_BYTES = 2 * 2**20  # of frames in one request body; a single larger frame is sent alone
 _CONNECT_SECONDS = 5.0
-_LARGEST_MESSAGE = 4 * 2**20  # on a play socket, as the server has it
+_LARGEST_MESSAGE = 4 * 2**20  # on a play socket; the server has the same limit
 _TRANSIENT = frozenset({429, 502, 503, 504})
 
 
 class Refused(Exception):
-    """The server refused a call; the problem document says why."""
+    """The server refused a call. `problem` says why."""
 
     def __init__(self, problem: wire.Problem) -> None:
         super().__init__(f"{problem.title}: {problem.detail}")
@@ -41,7 +41,7 @@ class Refused(Exception):
 
 
 class Unreachable(Exception):
-    """No answer from the server for as long as patience lasts."""
+    """The server did not reply within `patience`."""
 
 
 class Client:
@@ -50,8 +50,8 @@ class Client:
     Args:
         server: the server's base URL, such as http://127.0.0.1:8000.
         token: an API token.
-        transport: how requests travel; the network unless given.
-        patience: how long to go on when the server does not answer, seconds.
+        transport: replaces the network, for example with an app in the same process.
+        patience: how long to repeat a call without a reply, in seconds.
     """
 
     def __init__(
@@ -62,7 +62,7 @@ class Client:
         patience: float = PATIENCE_SECONDS,
     ) -> None:
         self._patience = patience
-        self._uploaded: set[str] = set()  # frames that the server has
+        self._uploaded: set[str] = set()  # hashes of frames that the server has
         self._http = httpx2.Client(
             base_url=f"{server.rstrip('/')}/api/v1",
             headers={"Authorization": f"Bearer {token}"},
@@ -81,7 +81,7 @@ class Client:
         return self._call(wire.Run, "POST", "/runs", run)
 
     def runs(self) -> list[wire.Run]:
-        """List runs, newest first; the newest thousand, if there are more."""
+        """Return the newest runs, at most a thousand, newest first."""
         return self._call(wire.RunList, "GET", "/runs", params={"limit": 1_000}).runs
 
     def run(self, run: str) -> wire.Run:
@@ -93,7 +93,7 @@ class Client:
         return self._call(wire.Run, "PATCH", f"/runs/{run}", patch)
 
     def upload(self, frames: Mapping[str, bytes]) -> None:
-        """Upload frames, PNGs by their SHA-256, but none that the server has."""
+        """Upload frames (PNG files by their SHA-256) that the server does not have yet."""
         wanted = [frame for frame in frames if frame not in self._uploaded]
         for start in range(0, len(wanted), _HASHES_AT_ONCE):
             hashes = wire.FrameHashes(hashes=wanted[start : start + _HASHES_AT_ONCE])
@@ -103,26 +103,26 @@ class Client:
             self._uploaded.update(hashes.hashes)
 
     def ask(self, run: str, queries: Sequence[wire.Ask]) -> list[wire.Query]:
-        """Ask; a query asked before comes back with its answer if it has one."""
+        """Ask queries. A query that was asked before is returned with its answer, if it has one."""
         return self._call(wire.Asked, "POST", f"/runs/{run}/queries", wire.AskList(queries=list(queries))).queries
 
     def query(self, query: int, wait: float = 0) -> wire.Query:
-        """Return a query, waiting up to `wait` seconds (at most 60) for its answer."""
+        """Return a query; wait up to `wait` seconds (at most 60) for its answer."""
         return self._call(wire.Query, "GET", f"/queries/{query}", params={"wait": wait})
 
     def answers(self, run: str, after: int, wait: float = 0) -> wire.AnswerPage:
-        """Return the answers given after a cursor, waiting up to `wait` seconds for the first."""
+        """Return the answers after a cursor; wait up to `wait` seconds (at most 60) for the first."""
         return self._call(wire.AnswerPage, "GET", f"/runs/{run}/answers", params={"after": after, "wait": wait})
 
     def use(self, query: int) -> wire.Query:
-        """Say that the learner uses the answer now; from then on it cannot be retracted."""
+        """Mark the answer as used. From then on it cannot be retracted."""
         return self._call(wire.Query, "POST", f"/queries/{query}/use")
 
     def play(self, query: int) -> AbstractContextManager[ClientConnection]:
         """Open the play socket of a demonstration.
 
         Raises:
-            OSError, WebSocketException: there is no server, or it refuses.
+            OSError, WebSocketException: there is no server, or it refuses the connection.
         """
         server = str(self._http.base_url).removeprefix("http")
         return connect(
@@ -133,11 +133,11 @@ class Client:
         )
 
     def report(self, run: str, episodes: Sequence[wire.EpisodeResult]) -> wire.Run:
-        """Report what episodes brought."""
+        """Report the results of episodes."""
         return self._call(wire.Run, "POST", f"/runs/{run}/episodes", wire.EpisodeList(episodes=list(episodes)))
 
     def add_gold(self, run: str, gold: wire.GoldPost) -> list[wire.Gold]:
-        """Make queries gold; returns all gold queries of the run, newest first."""
+        """Make queries gold; return all gold queries of the run, newest first."""
         return self._call(wire.GoldList, "POST", f"/runs/{run}/gold", gold).gold
 
     def costs(self, run: str) -> wire.Costs:
@@ -151,23 +151,23 @@ class Client:
     # --- the annotator's calls
 
     def lease(self, lease: wire.Lease) -> wire.Assignment | None:
-        """Lease the next query, or None if there was none within `lease.wait` seconds."""
+        """Lease the next query; return None if there is none within `lease.wait` seconds."""
         response = self._send("POST", "/assignments", lease)
         return None if response.status_code == 204 else _read(wire.Assignment, response)
 
     def assignments(self) -> list[wire.Assignment]:
-        """Return the live assignments of this user, oldest first."""
+        """Return this user's live assignments, oldest first."""
         return self._call(wire.AssignmentList, "GET", "/assignments").assignments
 
     def answer(
         self, assignment: wire.Assignment, answer: wire.Answer, following: wire.Lease | None = None
     ) -> wire.Receipt:
-        """Answer; the receipt carries the next assignment if `following` asks for one."""
+        """Answer. With `following`, the receipt has the next assignment, if there is one."""
         post = wire.AnswerPost(token=assignment.token, answer=answer, next=following)
         return self._call(wire.Receipt, "POST", f"/assignments/{assignment.id}/answer", post)
 
     def release(self, assignment: wire.Assignment, reason: str = "", skip: bool = False) -> None:
-        """Give a query back, unanswered."""
+        """Give a query back without an answer. With `skip`, it is not offered to this user again."""
         self._send(
             "POST",
             f"/assignments/{assignment.id}/release",
@@ -201,7 +201,7 @@ class Client:
 
 
 def _batches(hashes: Sequence[str], frames: Mapping[str, bytes]) -> Iterator[list[wire.Frame]]:
-    """Yield frames as they are uploaded, few enough at a time for a request body."""
+    """Yield batches of frames that each fit a request body."""
     batch, size = list[wire.Frame](), 0
     for one in hashes:
         png = base64.b64encode(frames[one]).decode()

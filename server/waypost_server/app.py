@@ -1,4 +1,4 @@
-"""The server's app: routes, refusals, the built page, and what runs for as long as it does."""
+"""The app: routes, error handling, the web app's files, and the background task that ends expired leases."""
 
 import asyncio
 import logging
@@ -8,37 +8,40 @@ from contextlib import asynccontextmanager, suppress
 from fastapi import APIRouter, FastAPI
 from starlette.middleware.gzip import GZipMiddleware
 
-from waypost_server.auth.lookup import Attempts, Credentials
+from waypost_server.answers import routes as answers
+from waypost_server.auth.attempts import LoginAttempts
+from waypost_server.auth.lookup import CredentialCache
 from waypost_server.db.engine import Database
 from waypost_server.db.wakeups import Hub
 from waypost_server.errors import StorageFailed
 from waypost_server.gold import practice_routes as practice
 from waypost_server.gold import routes as gold
 from waypost_server.gold.practice import PracticeSet
-from waypost_server.http import openapi, problems, spa
+from waypost_server.http import description, problems, spa
 from waypost_server.http.context import VERSION, Context
 from waypost_server.http.guard import Guard
-from waypost_server.leases import routes as assignments
-from waypost_server.leases import service as leases
+from waypost_server.leases import routes as leases
+from waypost_server.leases.service import expire
 from waypost_server.play import routes as play
 from waypost_server.play.relay import Relay
 from waypost_server.queries import frame_routes as frames
 from waypost_server.queries import routes as queries
 from waypost_server.runs import routes as runs
 from waypost_server.settings import Settings
-from waypost_server.users import me_routes as me
-from waypost_server.users import routes as people
-from waypost_server.watch import routes as watching
+from waypost_server.users import routes as users
+from waypost_server.users import session_routes as sessions
+from waypost_server.watch import event_routes as event_streams
+from waypost_server.watch import routes as watch
 from waypost_server.watch import system_routes as system
 
 API = "/api/v1"
-GZIP_BYTES = 8_192
+GZIP_BYTES = 8_192  # smaller responses are not compressed
 
 log = logging.getLogger("waypost")
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
-    """Return the app. Its store is opened, and brought up to this version's schema, when it starts."""
+    """Return the app. On start it opens the store and brings it up to this version's schema."""
     chosen = settings or Settings()
     app = FastAPI(
         title="Waypost",
@@ -50,13 +53,13 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lambda app: _lifespan(app, chosen),
     )
     api = APIRouter(prefix=API)
-    for module in (runs, queries, assignments, play, watching, frames, people, me, gold, practice):
+    for module in (runs, queries, leases, answers, play, watch, event_streams, frames, users, sessions, gold, practice):
         api.include_router(module.router)
     app.include_router(api)
     app.include_router(system.router)
     problems.install(app)
     spa.install(app, chosen.page)
-    openapi.install(app)
+    description.install(app)
     app.add_middleware(GZipMiddleware, minimum_size=GZIP_BYTES, compresslevel=5)
     app.add_middleware(
         Guard, hosts=chosen.hosts, max_body_bytes=chosen.max_body_bytes, body_seconds=chosen.body_seconds
@@ -69,16 +72,12 @@ async def _lifespan(app: FastAPI, settings: Settings) -> AsyncIterator[None]:
     hub = Hub()
     db = await asyncio.to_thread(Database, settings.database, hub.committed)
     hub.open()
-    app.state.context = Context(
-        settings,
-        db,
-        hub,
-        Credentials(db),
-        Attempts(settings.login_failures),
-        PracticeSet(settings.practice),
-        Relay(),
-    )
-    reaper = asyncio.create_task(_reap(app.state.context))
+    app.state.context = Context(settings, db, hub)
+    app.state.credentials = CredentialCache(db)
+    app.state.attempts = LoginAttempts(settings.login_failures)
+    app.state.practice = PracticeSet(settings.practice)
+    app.state.relay = Relay()
+    reaper = asyncio.create_task(_end_expired_leases(app.state.context))
     try:
         yield
     finally:
@@ -89,11 +88,11 @@ async def _lifespan(app: FastAPI, settings: Settings) -> AsyncIterator[None]:
         await asyncio.to_thread(db.close)
 
 
-async def _reap(context: Context) -> None:
-    """End expired leases for ever, so that a vanished annotator's query comes back by itself."""
+async def _end_expired_leases(context: Context) -> None:
+    """End expired leases forever, so that the queries of an annotator who vanished return to the queue."""
     while True:
         await asyncio.sleep(context.settings.reap_seconds)
         try:
-            await context.db.write(leases.expire)
+            await context.db.write(expire)
         except StorageFailed as error:
-            log.warning("Expired leases were not swept up: %s", error)
+            log.warning("Expired leases could not be ended: %s", error)

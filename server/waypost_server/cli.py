@@ -1,4 +1,4 @@
-"""The server's commands: serve, and the people and programs that may call it."""
+"""The server's commands: `serve`, and the users, tokens and login links of a store."""
 
 import json
 import socket
@@ -13,16 +13,16 @@ from pydantic import ValidationError
 from waypost import wire
 from waypost_server import errors, serving
 from waypost_server.app import create_app
+from waypost_server.auth import sessions, tokens
 from waypost_server.db.engine import BadDatabase, Database
 from waypost_server.db.schema import NewerStore
 from waypost_server.gold.practice import BadPractice
 from waypost_server.http import spa
 from waypost_server.settings import Settings
-from waypost_server.users import accounts
 from waypost_server.users import service as users
 
-app = typer.Typer(no_args_is_help=True, help="Waypost's server and its users.")
-user_app = typer.Typer(no_args_is_help=True, help="The people and programs that may call the server.")
+app = typer.Typer(no_args_is_help=True, help="The Waypost server and its users.")
+user_app = typer.Typer(no_args_is_help=True, help="Users: people and programs that may call the server.")
 token_app = typer.Typer(no_args_is_help=True, help="API tokens.")
 app.add_typer(user_app, name="user")
 app.add_typer(token_app, name="token")
@@ -36,14 +36,14 @@ DEFAULT_DATABASE = "sqlite:///waypost.db"
 
 
 def refuse(message: str) -> NoReturn:
-    """Say what was wrong and end with the status of wrong usage."""
+    """Print what was wrong and exit with the status for wrong usage."""
     typer.echo(message, err=True)
     raise typer.Exit(2)
 
 
 @contextmanager
 def opened(url: str) -> Iterator[Database]:
-    """Open a store for one command; what is wrong with it ends the command with one sentence."""
+    """Open a store for one command; errors end the command with one sentence."""
     try:
         db = Database(url)
     except (BadDatabase, NewerStore) as error:
@@ -57,20 +57,20 @@ def opened(url: str) -> Iterator[Database]:
 
 
 def administrator_url(db: Database, base: str, seconds: float) -> str:
-    """Return a one-time link that logs an administrator in; the user `admin` is created if there is none."""
-    name = db.write_now(users.an_administrator).name
+    """Return a one-time link that logs in an administrator; create the user `admin` if there is none."""
+    name = db.write_now(users.ensure_administrator).name
     return login_url(db, base, name, "admin", seconds)
 
 
 def login_url(db: Database, base: str, name: str, role: wire.Role, seconds: float) -> str:
-    """Return a one-time link that logs the user of a name in; the user is created if there is none."""
+    """Return a one-time link that logs in the user with this name; create the user if there is none."""
     user = db.write_now(lambda tx: users.ensure_user(tx, name, role))
-    link = db.write_now(lambda tx: users.create_login(tx, user.id, seconds))
+    link = db.write_now(lambda tx: sessions.create_login_link(tx, user.id, seconds))
     return f"{base.rstrip('/')}/login#{link.code}"
 
 
 def serve_app(settings: Settings, host: str, port: int) -> None:
-    """Serve until told to stop; prints a link that logs an administrator in.
+    """Serve until told to stop; print a link that logs in an administrator.
 
     Raises:
         CannotServe, BadDatabase, NewerStore: with one sentence for the user.
@@ -88,20 +88,20 @@ def _serve(settings: Settings, host: str, bound: socket.socket) -> None:
     finally:
         db.close()
     typer.echo(f"Waypost serves {db.url.render_as_string()} at {serving.url_of(bound)}")
-    typer.echo(f"Log in once, within {chosen.link_seconds / 60:.0f} minutes: {link}")
+    typer.echo(f"Log in with this link (it works once, for {chosen.link_seconds / 60:.0f} minutes): {link}")
     if chosen.page is None and spa.find() is None:
-        typer.echo("The page is not built; `make web` builds it.")
+        typer.echo("The web app is not built; `make web` builds it.")
     serving.foreground(create_app(chosen), bound)
 
 
 @app.command()
 def serve(
     host: Annotated[str, typer.Option(help="The address to listen on.")] = "127.0.0.1",
-    port: Annotated[int, typer.Option(min=0, max=65_535, help="The port; 0 takes a free one.")] = 8000,
+    port: Annotated[int, typer.Option(min=0, max=65_535, help="The port; 0 for any free port.")] = 8000,
     database: DatabaseOption = DEFAULT_DATABASE,
-    lease: Annotated[float | None, typer.Option(help="Seconds an assignment lives without a renewal.")] = None,
+    lease: Annotated[float | None, typer.Option(help="How long a lease lasts without a renewal, in seconds.")] = None,
 ) -> None:
-    """Serve the API and the page; prints a one-time link that logs an administrator in."""
+    """Serve the API and the web app; print a one-time link that logs in an administrator."""
     given = {"database": database} | ({} if lease is None else {"lease_seconds": lease})
     try:
         settings = Settings.model_validate(Settings().model_dump() | given)
@@ -115,7 +115,7 @@ def serve(
 
 def _check_role(role: str) -> None:
     if role not in get_args(wire.Role):
-        refuse(f"{role!r} is no role; choose one of {', '.join(get_args(wire.Role))}.")
+        refuse(f"{role!r} is not a role; choose one of {', '.join(get_args(wire.Role))}.")
 
 
 @user_app.command("add")
@@ -140,7 +140,7 @@ def add_user(
 def list_users(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
     """List all users."""
     with opened(database) as db:
-        found = db.read_now(users.everyone)
+        found = db.read_now(users.list_users)
     if as_json:
         typer.echo(found.model_dump_json())
         return
@@ -158,47 +158,49 @@ def set_role(name: str, role: str, database: DatabaseOption = DEFAULT_DATABASE) 
 
 @user_app.command("deactivate")
 def deactivate_user(name: str, database: DatabaseOption = DEFAULT_DATABASE) -> None:
-    """Sign a user out for good: sessions, tokens and links end, leases go back; their answers stay."""
+    """Deactivate a user: sessions, tokens, login links and leases end immediately. Answers stay."""
     _change(database, name, wire.UserPatch(active=False))
 
 
 @user_app.command("reactivate")
 def reactivate_user(name: str, database: DatabaseOption = DEFAULT_DATABASE) -> None:
-    """Let a user in again; they need a new link or token."""
+    """Reactivate a user, who then needs a new login link or token."""
     _change(database, name, wire.UserPatch(active=True))
 
 
 def _change(database: str, name: str, wanted: wire.UserPatch) -> None:
     with opened(database) as db:
-        user = db.read_now(lambda tx: users.named(tx, name))
-        db.write_now(lambda tx: accounts.change(tx, user.id, wanted))
+        user = db.read_now(lambda tx: users.find_by_name(tx, name))
+        db.write_now(lambda tx: users.change(tx, user.id, wanted))
 
 
 @token_app.command("create")
 def create_token(
     user: str,
-    label: Annotated[str, typer.Option(help="What it is for.")] = "",
+    label: Annotated[str, typer.Option(help="What the token is for.")] = "",
     database: DatabaseOption = DEFAULT_DATABASE,
     as_json: JsonOption = False,
 ) -> None:
-    """Create an API token for the user of a name; it is shown this once."""
+    """Create an API token for a user. It is shown only once."""
     with opened(database) as db:
-        owner = db.read_now(lambda tx: users.named(tx, user))
-        token = db.write_now(lambda tx: users.create_token(tx, owner.id, label))
+        owner = db.read_now(lambda tx: users.find_by_name(tx, user))
+        token = db.write_now(lambda tx: tokens.create_token(tx, owner.id, label))
     typer.echo(token.model_dump_json() if as_json else token.token)
 
 
 @token_app.command("list")
 def list_tokens(user: str, database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
-    """List the API tokens of the user of a name, without their secrets."""
+    """List a user's API tokens, without their secrets."""
     with opened(database) as db:
-        owner = db.read_now(lambda tx: users.named(tx, user))
-        found = db.read_now(lambda tx: accounts.tokens(tx, owner.id))
+        owner = db.read_now(lambda tx: users.find_by_name(tx, user))
+        found = db.read_now(lambda tx: tokens.list_tokens(tx, owner.id))
     if as_json:
         typer.echo(found.model_dump_json())
         return
     for token in found.tokens:
-        typer.echo(f"{token.id:>6}  made {_day(token.created_at)}  last used {_day(token.last_used_at)}  {token.label}")
+        typer.echo(
+            f"{token.id:>6}  created {_day(token.created_at)}  last used {_day(token.last_used_at)}  {token.label}"
+        )
 
 
 def _day(seconds: float | None) -> str:
@@ -207,22 +209,22 @@ def _day(seconds: float | None) -> str:
 
 @token_app.command("revoke")
 def revoke_token(token: int, database: DatabaseOption = DEFAULT_DATABASE) -> None:
-    """Revoke an API token by its number."""
+    """Revoke an API token by its id."""
     with opened(database) as db:
-        db.write_now(lambda tx: accounts.revoke_token(tx, token))
+        db.write_now(lambda tx: tokens.revoke_token(tx, token))
 
 
 @app.command("login-link")
 def login_link(
     user: str,
     base: Annotated[str, typer.Option(help="The server's address.")] = "http://127.0.0.1:8000",
-    hours: Annotated[float | None, typer.Option(min=0.1, max=168, help="How long it is good.")] = None,
+    hours: Annotated[float | None, typer.Option(min=0.1, max=168, help="How long the link is valid, in hours.")] = None,
     database: DatabaseOption = DEFAULT_DATABASE,
     as_json: JsonOption = False,
 ) -> None:
-    """Print a one-time link that logs the user of a name in."""
+    """Print a one-time link that logs in a user."""
     with opened(database) as db:
-        owner = db.read_now(lambda tx: users.named(tx, user))
+        owner = db.read_now(lambda tx: users.find_by_name(tx, user))
         seconds = Settings().link_seconds if hours is None else hours * 3_600
         url = login_url(db, base, owner.name, owner.role, seconds)
     typer.echo(json.dumps({"url": url}) if as_json else url)

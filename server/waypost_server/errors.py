@@ -1,41 +1,41 @@
-"""Every refusal of the server, each with the status a client can act on; all become RFC 9457 problem documents.
+"""All refusals of the server, each with an HTTP status that a client can act on. They become RFC 9457 documents.
 
 Refusal
 ├── Unauthenticated        401  no valid token or session
 │   ├── LoginUsed               the login link was used before
-│   ├── LoginExpired            the login link is too old
+│   ├── LoginExpired            the login link has expired
 │   └── Deactivated             the account is deactivated
-├── BudgetExhausted        402  the query's reserve does not fit the run's budget
+├── BudgetExhausted        402  the run's budget has too few units left for the query
 ├── Forbidden              403  the role may not do this
 │   ├── NotYours           403  another annotator's assignment
 │   ├── WrongToken         403  not the token of this lease
 │   └── CrossSite          403  a cookie used from a foreign page
 ├── NotFound               404
 ├── BodyTooSlow            408
-├── Conflict               409  the store is in another state than the request assumes
+├── Conflict               409  the state of the store does not allow the request
 │   ├── DifferentContent        the same key came with other content
 │   ├── KeyReused               an Idempotency-Key was used for something else
 │   ├── LeaseExpired            the answer came too late
 │   ├── LeaseEnded              the assignment was released, skipped or answered before
 │   ├── QueryCancelled          the run ended before the answer came
 │   ├── AnswerUsed              the learner has trained on the answer
-│   ├── AnswerRetracted         the answer was taken back
+│   ├── AnswerRetracted         the answer was retracted
 │   ├── NotAnswered             there is no answer to use
 │   ├── NotPlayable             no open demonstration to play
-│   ├── Displaced               another connection has taken this end of the play socket
-│   ├── RunFinished             a finished run asks nothing more
+│   ├── Displaced               a newer connection to the play socket replaced this one
+│   ├── RunFinished             a finished run does not allow this
 │   ├── BudgetTooLow            a budget below what is spent and reserved
-│   ├── NameTaken               a user of that name exists
-│   ├── NotActive               a deactivated user gets no links and no tokens
-│   └── LastAdministrator       nobody would be left to let others in
+│   ├── NameTaken               a user with this name exists
+│   ├── NotActive               a deactivated user gets no login links or tokens
+│   └── LastAdministrator       no active administrator would be left
 ├── BodyTooLarge           413
 ├── NotJson                415
-├── Misdirected            421  a Host this server does not answer to
-├── Unprocessable          422  well-formed, but wrong; names the field
+├── Misdirected            421  a Host name that this server does not serve
+├── Unprocessable          422  valid JSON, but a field is invalid; names the field
 ├── TooManyQueries         429  the run has too many open queries
 ├── TooManyAttempts        429  too many wrong login codes
-├── TooManyMessages        429  more on a socket than any person sends
-└── StorageFailed          503  nothing was stored; try again
+├── TooManyMessages        429  too many messages on a play socket
+└── StorageFailed          503  the database failed and nothing was stored; try again
 """
 
 from collections.abc import Sequence
@@ -65,13 +65,13 @@ class Unauthenticated(Refusal):
 
 
 class LoginUsed(Unauthenticated):
-    """The login link was used before; each works once."""
+    """The login link was used before; each link works once."""
 
     name, title = "login-used", "The login link was used before"
 
 
 class LoginExpired(Unauthenticated):
-    """The login link is too old."""
+    """The login link has expired."""
 
     name, title = "login-expired", "The login link is too old"
 
@@ -83,7 +83,7 @@ class Deactivated(Unauthenticated):
 
 
 class BudgetExhausted(Refusal):
-    """The query's reserve does not fit what is left of the run's budget."""
+    """The run's budget has fewer units left than the query may cost."""
 
     status, name, title = 402, "budget-exhausted", "The run's budget is exhausted"
 
@@ -101,19 +101,19 @@ class NotYours(Forbidden):
 
 
 class WrongToken(Forbidden):
-    """The token is not the one this lease was given."""
+    """The token does not belong to this lease."""
 
     name, title = "wrong-token", "Not the token of this assignment"
 
 
 class CrossSite(Forbidden):
-    """A session cookie came with a request that another site may have caused."""
+    """A request with a session cookie may have come from another site."""
 
     name, title = "cross-site", "Refused from another site"
 
 
 class NotFound(Refusal):
-    """There is no such thing."""
+    """The object does not exist."""
 
     status, name, title = 404, "not-found", "Not found"
 
@@ -125,7 +125,7 @@ class BodyTooSlow(Refusal):
 
 
 class Conflict(Refusal):
-    """The store is in another state than the request assumes."""
+    """The state of the store does not allow the request."""
 
     status, name, title = 409, "conflict", "Conflict"
 
@@ -143,7 +143,7 @@ class KeyReused(Conflict):
 
 
 class LeaseExpired(Conflict):
-    """The answer came after its lease had ended; it is kept, uncharged."""
+    """The answer came after its lease had expired. It is kept, but not charged."""
 
     name, title = "lease-expired", "The lease has expired"
 
@@ -161,85 +161,85 @@ class QueryCancelled(Conflict):
 
 
 class AnswerUsed(Conflict):
-    """The learner has used the answer; it can be taken back no more."""
+    """The learner has used the answer, so it can no longer be retracted."""
 
     name, title = "answer-used", "The learner has used the answer"
 
 
 class AnswerRetracted(Conflict):
-    """The answer was taken back."""
+    """The answer was retracted."""
 
     name, title = "answer-retracted", "The answer was taken back"
 
 
 class NotAnswered(Conflict):
-    """The query has no answer now."""
+    """The query has no answer at present."""
 
     name, title = "not-answered", "Not answered"
 
 
 class NotPlayable(Conflict):
-    """The query is no demonstration, or no longer an open one."""
+    """The query is not an open demonstration."""
 
     name, title = "not-playable", "Not an open demonstration"
 
 
 class Displaced(Conflict):
-    """A newer connection has taken this end of the play socket."""
+    """A newer connection to the play socket replaced this one."""
 
     name, title = "displaced", "Connected elsewhere"
 
 
 class RunFinished(Conflict):
-    """A finished run takes nothing new."""
+    """The run is finished, so it accepts nothing new."""
 
     name, title = "run-finished", "The run is finished"
 
 
 class BudgetTooLow(Conflict):
-    """A budget cannot be less than what is spent and reserved."""
+    """The budget is less than the units spent and reserved."""
 
     name, title = "budget-too-low", "The budget is too low"
 
 
 class NameTaken(Conflict):
-    """A user of that name exists."""
+    """A user with this name exists."""
 
     name, title = "name-taken", "The name is taken"
 
 
 class NotActive(Conflict):
-    """The user is deactivated, so no link and no token is made for them."""
+    """The user is deactivated, so they get no login link and no token."""
 
     name, title = "not-active", "The user is deactivated"
 
 
 class LastAdministrator(Conflict):
-    """Without this administrator nobody could let others in."""
+    """The last active administrator cannot be demoted or deactivated."""
 
     name, title = "last-administrator", "The last administrator stays"
 
 
 class BodyTooLarge(Refusal):
-    """The body is larger than the server takes."""
+    """The body is larger than the server accepts."""
 
     status, name, title = 413, "body-too-large", "The body is too large"
 
 
 class NotJson(Refusal):
-    """Bodies are JSON and say so."""
+    """The body is not declared as JSON."""
 
     status, name, title = 415, "not-json", "Send application/json"
 
 
 class Misdirected(Refusal):
-    """The Host header names another server."""
+    """The Host header names a host that this server does not serve."""
 
     status, name, title = 421, "misdirected", "This server does not answer to that host name"
 
 
 class Unprocessable(Refusal):
-    """Well-formed, but not valid; `errors` names each field at fault."""
+    """The request is valid JSON, but a field is invalid; `errors` names each such field."""
 
     status, name, title = 422, "unprocessable", "The request is not valid"
 
@@ -249,7 +249,7 @@ class Unprocessable(Refusal):
 
 
 class TooManyQueries(Refusal):
-    """The run has as many open queries as it may."""
+    """The run has the highest allowed number of open queries."""
 
     status, name, title = 429, "too-many-queries", "Too many open queries"
 
@@ -261,12 +261,12 @@ class TooManyAttempts(Refusal):
 
 
 class TooManyMessages(Refusal):
-    """More messages came on a socket than playing needs."""
+    """Too many messages came on a play socket."""
 
     status, name, title = 429, "too-many-messages", "Too many messages"
 
 
 class StorageFailed(Refusal):
-    """The store could not take it; nothing was stored."""
+    """The database failed. Nothing was stored, so send the same request again."""
 
     status, name, title = 503, "storage-failed", "The store failed"

@@ -1,4 +1,4 @@
-"""Running the app with uvicorn: in the foreground, or on a thread beside a learner, on a socket bound beforehand."""
+"""Runs the app with uvicorn, in the foreground or on a thread, on a socket that is bound beforehand."""
 
 import socket
 import threading
@@ -18,11 +18,11 @@ GRACE_SECONDS = 2
 
 
 class CannotServe(Exception):
-    """The server cannot start; the message says why and what to do."""
+    """The server cannot start. The message says why and what to do."""
 
 
 class Server(uvicorn.Server):
-    """Uvicorn, with streams and long polls ended as soon as it is told to stop."""
+    """Uvicorn; when told to stop, it first ends streams and long polls."""
 
     def __init__(self, app: FastAPI, log_level: str) -> None:
         config = uvicorn.Config(
@@ -39,24 +39,24 @@ class Server(uvicorn.Server):
         self._app = app
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Wake whoever waits, so that their requests end, and shut down."""
+        """Wake all waiting requests, so that they end, and shut down."""
         self._app.state.context.hub.close()
         await super().shutdown(sockets)
 
 
 @dataclass(frozen=True)
 class Served:
-    """A running server: where it is, and its store."""
+    """A running server: its address and its store."""
 
     url: str
     db: Database
 
 
 def bind(host: str, port: int) -> socket.socket:
-    """Return a listening socket; port 0 takes a free one.
+    """Return a listening socket. Port 0 means any free port.
 
     Raises:
-        CannotServe: if the address cannot be had.
+        CannotServe: the address is not available.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     bound = socket.socket(family, socket.SOCK_STREAM)
@@ -71,7 +71,7 @@ def bind(host: str, port: int) -> socket.socket:
 
 
 def url_of(bound: socket.socket) -> str:
-    """Return the address a browser on this machine can open."""
+    """Return the address that a browser on this machine can open."""
     host, port = bound.getsockname()[:2]
     host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)  # noqa: S104 - compared, not bound
     return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
@@ -84,7 +84,7 @@ def background(settings: Settings, host: str = "127.0.0.1", port: int = 0) -> It
     Raises:
         CannotServe, BadDatabase, NewerStore: with one sentence for the user.
     """
-    Database(settings.database).close()  # what is wrong with it is said here, not in the thread's log
+    Database(settings.database).close()  # errors are raised here, not in the thread
     app = create_app(settings)
     server = Server(app, "warning")
     with closing(bind(host, port)) as bound:
@@ -102,7 +102,7 @@ def _wait_for_start(server: Server, thread: threading.Thread) -> None:
     while not server.started:
         thread.join(0.01)
         if not thread.is_alive():
-            raise CannotServe("The server did not start; its log says why.")
+            raise CannotServe("The server did not start; see its log.")
 
 
 def foreground(app: FastAPI, bound: socket.socket, log_level: str = "warning") -> None:

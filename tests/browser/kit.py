@@ -8,6 +8,7 @@ import httpx2
 from playwright.sync_api import BrowserContext, ConsoleMessage, Page, expect
 
 from waypost import wire
+from waypost_server.auth import sessions, tokens
 from waypost_server.serving import Served
 from waypost_server.users import service as users
 
@@ -122,7 +123,7 @@ class Learner:
     def __init__(self, served: Served) -> None:
         self.served = served
         user = served.db.write_now(lambda tx: users.ensure_user(tx, "learner", "learner"))
-        token = served.db.write_now(lambda tx: users.create_token(tx, user.id, "test")).token
+        token = served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "test")).token
         self._http = httpx2.Client(
             base_url=f"{served.url}/api/v1", headers={"Authorization": f"Bearer {token}"}, timeout=60
         )
@@ -189,7 +190,7 @@ class Learner:
 def login_link(served: Served, name: str, role: wire.Role) -> str:
     """A one-time link that logs a new person in."""
     user = served.db.write_now(lambda tx: users.ensure_user(tx, name, role))
-    code = served.db.write_now(lambda tx: users.create_login(tx, user.id, 600)).code
+    code = served.db.write_now(lambda tx: sessions.create_login_link(tx, user.id, 600)).code
     return f"{served.url}/login#{code}"
 
 

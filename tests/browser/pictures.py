@@ -23,6 +23,7 @@ from tests.browser.kit import Learner, ask, find_chromium, log_in, wait_for_head
 from waypost.client import Client
 from waypost_learner.remote.stage import offer
 from waypost_server import serving
+from waypost_server.auth import tokens
 from waypost_server.serving import Served
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
@@ -101,7 +102,7 @@ class Gallery:
         run = self.learner.create_run("maze-lean")
         query = self.learner.ask(run, test_play.ask())[0]
         user = self.served.db.write_now(lambda tx: users.ensure_user(tx, "learner", "learner"))
-        token = self.served.db.write_now(lambda tx: users.create_token(tx, user.id, "stage")).token
+        token = self.served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "stage")).token
         with closing(Client(self.served.url, token)) as client, ExitStack() as stack:
             stack.callback(offer(lambda: client.play(query), test_play.MAZE, client.upload))
             self.page.goto(f"/work?run={run}")

@@ -7,6 +7,7 @@ from playwright.sync_api import Browser, Page
 from tests.browser.hostile import NUMBER, payloads
 from tests.browser.kit import VOCABULARY, Learner, ask, login_link, wait_for_heading
 
+from waypost_server.auth import tokens
 from waypost_server.serving import Served
 from waypost_server.users import service as users
 
@@ -96,7 +97,7 @@ def test_names_of_people_and_tokens_are_only_ever_text(page: Page, learner: Lear
         served.db.write_now(lambda tx, name=text: users.ensure_user(tx, name, "annotator"))
     hostile = served.db.write_now(lambda tx: users.ensure_user(tx, PAYLOADS[20], "annotator"))
     for text in PAYLOADS[:20]:
-        served.db.write_now(lambda tx, label=text: users.create_token(tx, hostile.id, label))
+        served.db.write_now(lambda tx, label=text: tokens.create_token(tx, hostile.id, label))
     look(page, "/people", f"/people/{hostile.id}")
     page.goto(login_link(served, PAYLOADS[20], "annotator"))
     page.wait_for_url("**/work")

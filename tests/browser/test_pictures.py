@@ -23,6 +23,7 @@ from waypost_learner.remote.camera import Camera
 from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
 from waypost_learner.runs.training import Connection, RunOptions, train
+from waypost_server.auth import tokens
 from waypost_server.serving import Served
 from waypost_server.users import service as users
 
@@ -50,7 +51,7 @@ def agents_cell(page: Page) -> int:
 @contextmanager
 def client_of(served: Served) -> Iterator[Client]:
     user = served.db.write_now(lambda tx: users.ensure_user(tx, "corridor-learner", "learner"))
-    client = Client(served.url, served.db.write_now(lambda tx: users.create_token(tx, user.id, "test")).token)
+    client = Client(served.url, served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "test")).token)
     yield client
     client.close()
 

@@ -21,6 +21,7 @@ from waypost_learner.remote.stage import offer
 from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
 from waypost_server import serving
+from waypost_server.auth import tokens
 from waypost_server.db.tables import assignments
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
@@ -53,7 +54,7 @@ def stage() -> Iterator[Stage]:
 
         def offered(served: serving.Served, query: int, translator: Translator = MAZE) -> Callable[[], None]:
             user = served.db.write_now(lambda tx: users.ensure_user(tx, "learner", "learner"))
-            token = served.db.write_now(lambda tx: users.create_token(tx, user.id, "stage")).token
+            token = served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "stage")).token
             client = Client(served.url, token)
             stack.callback(client.close)
             withdraw = offer(lambda: client.play(query), translator, client.upload)

@@ -142,11 +142,12 @@ def test_a_run_is_trained_on_the_mazes_of_a_file() -> None:
 def test_an_oracle_in_this_process_answers_at_a_real_server_too(
     trained: tuple[Path, str], start_server: Callable[[Settings], serving.Served], tmp_path: Path
 ) -> None:
+    from waypost_server.auth import tokens
     from waypost_server.users import service as users
 
     served = start_server(Settings(database=f"sqlite:///{tmp_path / 'served.db'}"))
     admin = served.db.write_now(lambda tx: users.ensure_user(tx, "ann", "admin"))
-    token = served.db.write_now(lambda tx: users.create_token(tx, admin.id, "test")).token
+    token = served.db.write_now(lambda tx: tokens.create_token(tx, admin.id, "test")).token
     result = waypost(*TRAIN, "--episodes", "8", "--server", served.url, "--token", token, "--json")
     assert result.exit_code == 0, result.output
     over_http, in_process = json.loads(result.stdout), json.loads(trained[1])

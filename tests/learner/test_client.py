@@ -15,6 +15,7 @@ from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.remote.in_process import InProcessTransport
 from waypost_learner.remote.translation import vocabulary
 from waypost_server.app import create_app
+from waypost_server.auth import tokens
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
@@ -77,7 +78,7 @@ def service(tmp_path: Path) -> Iterator[Service]:
 
     def token(name: str, role: wire.Role) -> str:
         user = app.state.context.db.write_now(lambda tx: users.ensure_user(tx, name, role))
-        made = app.state.context.db.write_now(lambda tx: users.create_token(tx, user.id, "test"))
+        made = app.state.context.db.write_now(lambda tx: tokens.create_token(tx, user.id, "test"))
         return str(made.token)
 
     with InProcessTransport(app) as transport:

@@ -35,6 +35,7 @@ from waypost_learner.experiments.figures.store import read, stored
 from waypost_learner.runs.config import TrainConfig
 from waypost_learner.runs.training import train
 from waypost_server import serving
+from waypost_server.auth import tokens
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
@@ -155,7 +156,7 @@ def test_a_server_gives_the_same_figures_as_its_store(
     shutil.copy(trained, "served.db")
     served = start_server(Settings(database="sqlite:///served.db"))
     viewer = served.db.write_now(lambda tx: users.ensure_user(tx, "ann", "viewer"))
-    token = served.db.write_now(lambda tx: users.create_token(tx, viewer.id, "test")).token
+    token = served.db.write_now(lambda tx: tokens.create_token(tx, viewer.id, "test")).token
     drawn("--server", served.url, "--token", token, *TWO_SEEDS, "--out", "server")
     assert contents(Path("server")) == expected
 

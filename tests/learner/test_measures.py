@@ -16,7 +16,7 @@ from waypost_learner.experiments.figures import draw, look, measures, tables
 from waypost_learner.experiments.figures.data import Comparison, RunCurves
 from waypost_learner.experiments.figures.published import published
 from waypost_learner.experiments.figures.statistics import Track, band, first_at, spread
-from waypost_server.runs.curves import _first_at as server_first_at
+from waypost_server.runs.curves import first_at as server_first_at
 
 # --- medians, ranges, and first times
 

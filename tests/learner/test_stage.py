@@ -26,6 +26,7 @@ from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
 from waypost_learner.runs.training import Connection, RunOptions, train
 from waypost_server import serving
+from waypost_server.auth import tokens
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
@@ -108,7 +109,7 @@ def connect() -> Iterator[Connect]:
 
         def connect(served: serving.Served, name: str, role: wire.Role) -> Client:
             user = served.db.write_now(lambda tx: users.ensure_user(tx, name, role))
-            token = served.db.write_now(lambda tx: users.create_token(tx, user.id, "")).token
+            token = served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "")).token
             client = Client(served.url, token)
             stack.callback(client.close)
             return client

@@ -25,6 +25,7 @@ from waypost_learner.experiments.sweep import Place, Progress, name_of, sweep
 from waypost_learner.runs.config import TrainConfig
 from waypost_learner.runs.training import embedded
 from waypost_server import serving
+from waypost_server.auth import tokens
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
@@ -159,7 +160,7 @@ def test_a_cluster_cannot_write_a_file_of_this_machine(tmp_path: Path) -> None:
 def token(tmp_path: Path) -> Iterator[tuple[str, str]]:
     with serving.background(Settings(database=f"sqlite:///{tmp_path / 'server.db'}"), port=0) as server:
         user = server.db.write_now(lambda tx: users.ensure_user(tx, "sweeper", "admin"))
-        yield server.url, server.db.write_now(lambda tx: users.create_token(tx, user.id, "sweep")).token
+        yield server.url, server.db.write_now(lambda tx: tokens.create_token(tx, user.id, "sweep")).token
 
 
 def test_a_sweep_can_write_to_a_server(tmp_path: Path, token: tuple[str, str]) -> None:

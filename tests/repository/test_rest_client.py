@@ -11,6 +11,7 @@ from waypost import wire
 from waypost.client import Client
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.remote.translation import vocabulary
+from waypost_server.auth import tokens
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
@@ -20,7 +21,7 @@ DOMAIN = MazeDomain()
 
 def token(served, name: str, role: wire.Role) -> str:
     user = served.db.write_now(lambda tx: users.create_user(tx, name, role))
-    return served.db.write_now(lambda tx: users.create_token(tx, user.id, "")).token
+    return served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "")).token
 
 
 def inspect_full(maze, last) -> wire.AskInspectFull:

@@ -14,6 +14,7 @@ from fastapi.testclient import TestClient
 
 from waypost import wire
 from waypost_server.app import create_app
+from waypost_server.auth import tokens
 from waypost_server.db.engine import Database
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
@@ -132,7 +133,7 @@ class Service:
     def user(self, name: str, role: wire.Role) -> Caller:
         """Create a user with a token."""
         made = self.db.write_now(lambda tx: users.ensure_user(tx, name, role))
-        token = self.db.write_now(lambda tx: users.create_token(tx, made.id, "test")).token
+        token = self.db.write_now(lambda tx: tokens.create_token(tx, made.id, "test")).token
         return Caller(self.client, name, token)
 
     def annotators(self, n: int) -> list[Caller]:

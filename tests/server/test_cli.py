@@ -16,7 +16,6 @@ from typer.testing import CliRunner
 from waypost import wire
 from waypost_server.cli import app
 from waypost_server.db.engine import Database
-from waypost_server.users import accounts
 from waypost_server.users import service as users
 
 
@@ -58,25 +57,28 @@ def test_serve_lets_some_administrator_in_whoever_is_left(sqlite_url: str) -> No
     db = Database(sqlite_url)
     for name in ("admin", "ann"):
         db.write_now(lambda tx, name=name: users.create_user(tx, name, "admin"))
-    assert db.write_now(users.an_administrator).name == "admin"
-    db.write_now(lambda tx: accounts.change(tx, 1, wire.UserPatch(active=False)))
-    assert db.write_now(users.an_administrator).name == "ann"
+    assert db.write_now(users.ensure_administrator).name == "admin"
+    db.write_now(lambda tx: users.change(tx, 1, wire.UserPatch(active=False)))
+    assert db.write_now(users.ensure_administrator).name == "ann"
     db.close()
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["user", "add", "x", "--role", "king"], "'king' is no role; choose one of admin, learner, annotator, viewer."),
+        (
+            ["user", "add", "x", "--role", "king"],
+            "'king' is not a role; choose one of admin, learner, annotator, viewer.",
+        ),
         (["user", "add", ""], "cannot be a user's name"),
-        (["user", "list", "--database", "nonsense"], "'nonsense' is no database URL"),
+        (["user", "list", "--database", "nonsense"], "'nonsense' is not a database URL"),
         (
             ["user", "list", "--database", "sqlite:////no/such/folder/x.db"],
             "Cannot open sqlite:////no/such/folder/x.db",
         ),
         (["token", "create", "nobody"], "There is no user named 'nobody'"),
         (["user", "role", "nobody", "viewer"], "There is no user named 'nobody'"),
-        (["user", "role", "nobody", "king"], "'king' is no role"),
+        (["user", "role", "nobody", "king"], "'king' is not a role"),
         (["token", "revoke", "77"], "There is no token 77."),
         (["login-link", "nobody"], "There is no user named 'nobody'"),
         (["serve", "--lease", "-1"], "The setting lease_seconds is not valid"),

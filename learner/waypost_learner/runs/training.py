@@ -26,8 +26,8 @@ from waypost_learner.runs.driver import BudgetExhausted, Driver, Offer
 from waypost_learner.runs.evaluation import Evaluation, evaluate
 from waypost_learner.runs.tracking import Tracker
 from waypost_server.app import create_app
+from waypost_server.auth import tokens
 from waypost_server.settings import Settings
-from waypost_server.users import accounts
 from waypost_server.users import service as users
 
 
@@ -63,8 +63,8 @@ def embedded(store: Path) -> Iterator[Connection]:
 
         def connect(name: str, role: wire.Role) -> Client:
             user = db.write_now(lambda tx: users.ensure_user(tx, name, role))
-            token = db.write_now(lambda tx: users.create_token(tx, user.id, "embedded"))
-            stack.callback(db.write_now, lambda tx: accounts.revoke_token(tx, token.id))
+            token = db.write_now(lambda tx: tokens.create_token(tx, user.id, "embedded"))
+            stack.callback(db.write_now, lambda tx: tokens.revoke_token(tx, token.id))
             client = Client("http://localhost", token.token, transport)
             stack.callback(client.close)
             return client

@@ -1,7 +1,7 @@
-"""Answering: check, store, charge and close in one unit of work; and taking an answer back.
+"""Answers: checked, stored, charged and closed in one transaction.
 
-A late answer is refused, but kept: it is stored without a revision, so it never counts and costs nothing. The refusal
-is therefore part of the outcome rather than an exception, which would undo the storing.
+A late answer is refused but kept: it is stored without a revision, so it never counts and costs nothing. The refusal
+is therefore part of the outcome; an exception would undo the storing.
 """
 
 from dataclasses import dataclass
@@ -14,19 +14,18 @@ from waypost import wire
 from waypost.prices import Cost, to_units
 from waypost_server import errors
 from waypost_server.db import canonical
-from waypost_server.db.engine import Tx
-from waypost_server.db.tables import IS_LIVE, answers, assignments
-from waypost_server.db.tables import ledger as ledger_table
+from waypost_server.db.tables import answers, assignments
 from waypost_server.db.tables import queries as query_table
+from waypost_server.db.transaction import Tx
 from waypost_server.gold import schedule
 from waypost_server.leases import active_time
 from waypost_server.leases import service as leases
+from waypost_server.leases.assignments import OwnAssignment, check_live, find, leased_after
+from waypost_server.leases.request import LeaseRequest
 from waypost_server.queries import checks
 from waypost_server.queries import service as queries
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
-from waypost_server.runs.ledger import Entry
-from waypost_server.settings import Settings
 
 
 @dataclass(frozen=True)
@@ -37,19 +36,19 @@ class Post:
     user: int
     token: str
     answer: wire.Answer
-    key: str | None
+    key: str | None  # the Idempotency-Key
     idle_seconds: float
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of an answer."""
+    """The result of posting an answer: a receipt or a refusal. Both are committed."""
 
     given: wire.Receipt | None
     refusal: errors.Refusal | None = None
 
     def receipt(self) -> wire.Receipt:
-        """Return the receipt, or raise the refusal that was committed."""
+        """Return the receipt, or raise the refusal."""
         if self.refusal is not None or self.given is None:
             raise self.refusal or errors.StorageFailed("There is no receipt.")
         return self.given
@@ -57,9 +56,9 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Case:
-    """Everything an answer is judged by, with its run and query locked."""
+    """An assignment with its run and query, both locked, and the canonical content of the answer."""
 
-    held: leases.Held
+    assignment: OwnAssignment
     run: Row[Any]
     query: Row[Any]
     ask: wire.Ask
@@ -67,8 +66,8 @@ class Case:
     digest: str
 
 
-_LOCK_QUERY = select(query_table).where(query_table.c.id == bindparam("query")).with_for_update()
-_GIVEN = select(answers).where(answers.c.assignment_id == bindparam("assignment"))
+LOCK_QUERY = select(query_table).where(query_table.c.id == bindparam("query")).with_for_update()
+ANSWER_OF = select(answers).where(answers.c.assignment_id == bindparam("assignment"))
 _INSERT = insert(answers).returning(answers)
 _END = (
     update(assignments)
@@ -82,35 +81,44 @@ _CLOSE = (
 )
 
 
-def answer(tx: Tx, post: Post, wish: leases.Wish | None) -> Outcome:
-    """Take an answer, and lease the annotator's next query if there is one now."""
+def answer(tx: Tx, post: Post, following: LeaseRequest | None) -> Outcome:
+    """Accept an answer, and lease the annotator's next query if `following` asks for one and there is one.
+
+    Sending the same answer again returns the same receipt.
+
+    Raises:
+        NotFound, NotYours, WrongToken: the user does not have this assignment.
+        KeyReused, DifferentContent, AnswerRetracted: another answer was sent before.
+        Unprocessable: the answer does not fit the query.
+    """
     case = _open(tx, post)
-    _refuse_reused_key(tx, post, case)
-    earlier = tx.conn.execute(_GIVEN, {"assignment": post.assignment}).one_or_none()
+    _check_key(tx, post, case)
+    earlier = tx.conn.execute(ANSWER_OF, {"assignment": post.assignment}).one_or_none()
     if earlier is not None:
-        return _again(tx, case, earlier, wish)
+        return _repeat(tx, case, earlier, following)
     names = checks.Names.of(wire.Vocabulary.model_validate_json(case.run.vocabulary))
     checks.check_answer(case.ask, post.answer, names, ["body", "answer"])
     try:
-        leases.refuse_ended(case.held, tx.now)
+        check_live(case.assignment, tx.now)
     except errors.Conflict as refusal:
         _store(tx, post, case, None, Cost(0))
         leases.expire(tx)
         return Outcome(None, refusal)
-    return Outcome(_accept(tx, post, case, wish))
+    return Outcome(_accept(tx, post, case, following))
 
 
 def _open(tx: Tx, post: Post) -> Case:
-    held = leases.find(tx, post.assignment, post.user, post.token)
-    run = runs.lock(tx, held.run)
-    query = tx.conn.execute(_LOCK_QUERY, {"query": held.query}).one()
+    assignment = find(tx, post.assignment, post.user, post.token)
+    run = runs.lock(tx, assignment.run)
+    query = tx.conn.execute(LOCK_QUERY, {"query": assignment.query}).one()
     if not tx.one_writer:
-        held = leases.find(tx, post.assignment, post.user, post.token)
+        assignment = find(tx, post.assignment, post.user, post.token)
     text = canonical.text(post.answer.model_dump(mode="json"))
-    return Case(held, run, query, queries.ASK.validate_json(query.ask), text, canonical.digest(text))
+    return Case(assignment, run, query, queries.ASK.validate_json(query.ask), text, canonical.digest(text))
 
 
-def _refuse_reused_key(tx: Tx, post: Post, case: Case) -> None:
+def _check_key(tx: Tx, post: Post, case: Case) -> None:
+    """Refuse an Idempotency-Key that came before with another answer."""
     if post.key is None:
         return
     same = (answers.c.user_id == post.user, answers.c.idempotency_key == post.key)
@@ -119,28 +127,28 @@ def _refuse_reused_key(tx: Tx, post: Post, case: Case) -> None:
         raise errors.KeyReused("This Idempotency-Key came before with another answer; use a new one.")
 
 
-def _again(tx: Tx, case: Case, earlier: Row[Any], wish: leases.Wish | None) -> Outcome:
-    """Answer an answer that came before: the same receipt for the same content."""
+def _repeat(tx: Tx, case: Case, earlier: Row[Any], following: LeaseRequest | None) -> Outcome:
+    """Return the receipt of an answer that was sent before with the same content."""
     if earlier.revision is None:
-        raise errors.LeaseExpired("The lease ended before this came; the query is back in the queue.")
+        raise errors.LeaseExpired("The lease had expired when this arrived; the query is back in the queue.")
     if earlier.digest != case.digest:
-        raise errors.DifferentContent("This assignment was answered otherwise; take that answer back to correct it.")
+        raise errors.DifferentContent("This assignment has another answer; retract that answer to correct it.")
     if case.query.answer_id != earlier.id:
-        raise errors.AnswerRetracted("This answer was taken back.")
-    following = leases.granted_after(tx, case.held.id)
-    if following is None and wish is not None:
-        following = leases.lease(tx, wish)
-    return Outcome(_receipt(earlier, following))
+        raise errors.AnswerRetracted("This answer was retracted.")
+    leased = leased_after(tx, case.assignment.id)
+    if leased is None and following is not None:
+        leased = leases.lease(tx, following)
+    return Outcome(_receipt(earlier, leased))
 
 
-def _accept(tx: Tx, post: Post, case: Case, wish: leases.Wish | None) -> wire.Receipt:
-    """Store, charge and close."""
+def _accept(tx: Tx, post: Post, case: Case, following: LeaseRequest | None) -> wire.Receipt:
+    """Store and charge the answer, and close the query."""
     cost = pricing.cost(post.answer, wire.Prices.model_validate_json(case.run.prices))
     stored = _store(tx, post, case, case.query.revision, cost)
     if case.run.gold_of is not None:
         schedule.score(tx, case.query.id, post.answer)
     else:
-        entry = Entry(
+        entry = ledger.Entry(
             case.run.id,
             case.query.id,
             stored.id,
@@ -151,7 +159,7 @@ def _accept(tx: Tx, post: Post, case: Case, wish: leases.Wish | None) -> wire.Re
             stored.active_seconds,
         )
         ledger.charge(tx, entry, case.query.reserve)
-    tx.conn.execute(_END, {"assignment": case.held.id, "now": tx.now})
+    tx.conn.execute(_END, {"assignment": case.assignment.id, "now": tx.now})
     tx.conn.execute(_CLOSE, {"query": case.query.id, "answer": stored.id})
     data = {
         "query": case.query.id,
@@ -162,11 +170,11 @@ def _accept(tx: Tx, post: Post, case: Case, wish: leases.Wish | None) -> wire.Re
     }
     events.add(tx, case.run.id, "answered", data)
     tx.wake(queries.topic(case.query.id), runs.answers_topic(case.run.id))
-    return _receipt(stored, None if wish is None else leases.lease(tx, wish))
+    return _receipt(stored, None if following is None else leases.lease(tx, following))
 
 
 def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> Row[Any]:
-    seconds = max(tx.now - case.held.leased_at, 0.0)
+    seconds = max(tx.now - case.assignment.leased_at, 0.0)
     row = {
         "run_id": case.run.id,
         "query_id": case.query.id,
@@ -184,64 +192,12 @@ def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> 
     return tx.conn.execute(_INSERT, row).one()
 
 
-def _receipt(stored: Row[Any], following: wire.Assignment | None) -> wire.Receipt:
+def _receipt(stored: Row[Any], leased: wire.Assignment | None) -> wire.Receipt:
     return wire.Receipt(
         query=stored.query_id,
         answer=stored.id,
         units=to_units(stored.units),
         seconds=stored.seconds,
         active_seconds=stored.active_seconds,
-        next=following,
+        next=leased,
     )
-
-
-def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Settings) -> wire.Assignment:
-    """Take an answer back and lease its query to the same annotator again; what it cost is refunded."""
-    held = leases.find(tx, assignment, user, body.token)
-    run = runs.lock(tx, held.run)
-    query = tx.conn.execute(_LOCK_QUERY, {"query": held.query}).one()
-    given = tx.conn.execute(_GIVEN, {"assignment": assignment}).one_or_none()
-    if given is None or given.revision is None:
-        raise errors.LeaseEnded("This assignment has no answer that counts.")
-    if query.answer_id != given.id:
-        return _retracted_before(tx, query.id, user)
-    if query.used:
-        raise errors.AnswerUsed("The learner has trained on this answer; it can be taken back no more.")
-    if run.state == "finished":
-        raise errors.RunFinished("The run is finished; its answers stay.")
-    if run.gold_of is not None:
-        schedule.unscore(tx, query.id)
-    else:
-        _refund(tx, run, query, given)
-    tx.conn.execute(
-        update(query_table)
-        .where(query_table.c.id == query.id)
-        .values(state="leased", answer_id=None, revision=query.revision + 1)
-    )
-    events.add(tx, run.id, "retracted", {"query": query.id, "answer": given.id, "units": to_units(given.units)})
-    tx.wake(queries.topic(query.id))
-    again = leases.grant(tx, query.id, user, leases.Terms(settings.lease_seconds, tab=body.tab))
-    return leases.view(tx, again)
-
-
-def _refund(tx: Tx, run: Row[Any], query: Row[Any], given: Row[Any]) -> None:
-    charged = tx.conn.execute(
-        select(ledger_table).where(ledger_table.c.answer_id == given.id, ledger_table.c.entry == "charge")
-    ).one()
-    cost = Cost(charged.units, charged.lo_units)
-    entry = Entry(run.id, query.id, given.id, query.kind, query.episode, cost, charged.seconds, charged.active_seconds)
-    ledger.refund(tx, entry, runs.account(run), query.reserve)
-
-
-def _retracted_before(tx: Tx, query: int, user: int) -> wire.Assignment:
-    """Return the assignment an earlier retraction gave, if it is still live."""
-    live_now = select(assignments.c.id).where(
-        assignments.c.query_id == query,
-        assignments.c.user_id == user,
-        IS_LIVE,
-        assignments.c.expires_at > tx.now,
-    )
-    one = tx.conn.execute(live_now).scalar_one_or_none()
-    if one is None:
-        raise errors.AnswerRetracted("This answer was taken back before.")
-    return leases.view(tx, one)

@@ -1,4 +1,4 @@
-"""Content as bytes: the same JSON value always gives the same text and the same digest."""
+"""Canonical JSON: equal values give the same text and the same digest, so contents can be compared."""
 
 import hashlib
 import json
@@ -11,12 +11,12 @@ def text(value: Any) -> str:
     """Return a JSON value as canonical ASCII text.
 
     Raises:
-        Unprocessable: for a number that JSON cannot hold, such as one that overflowed to infinity.
+        Unprocessable: the value has a number that JSON cannot express, such as infinity.
     """
     try:
         return json.dumps(value, allow_nan=False, sort_keys=True, separators=(",", ":"))
     except ValueError:
-        raise errors.Unprocessable(["body"], "holds a number outside of what JSON can carry") from None
+        raise errors.Unprocessable(["body"], "has a number that JSON cannot express, such as infinity") from None
 
 
 def digest(content: str) -> str:

@@ -1,4 +1,4 @@
-"""The store's schema: brought up to date when a database is opened."""
+"""The schema of a store, brought up to date when the database is opened."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from alembic.script import ScriptDirectory
 from sqlalchemy import Engine, text
 
 MIGRATIONS = Path(__file__).parent / "migrations"
-LOCK = 7_296_011  # any number of our own: servers that start together migrate one after the other
+LOCK = 7_296_011  # an arbitrary number; with it, servers that start at the same time migrate one after the other
 
 
 class NewerStore(Exception):
@@ -17,7 +17,7 @@ class NewerStore(Exception):
 
 
 def config() -> Config:
-    """Return Alembic's configuration."""
+    """Return Alembic's configuration for the migrations in this package."""
     found = Config()
     found.set_main_option("script_location", str(MIGRATIONS))
     found.set_main_option("path_separator", "os")
@@ -25,10 +25,10 @@ def config() -> Config:
 
 
 def upgrade(engine: Engine) -> None:
-    """Apply the migrations a store lacks, in one transaction.
+    """Apply the migrations that a store lacks, in one transaction.
 
     Raises:
-        NewerStore: if the store has a revision this version does not know.
+        NewerStore: the store has a revision that this version does not know.
     """
     settings = config()
     known = {script.revision for script in ScriptDirectory.from_config(settings).walk_revisions()}

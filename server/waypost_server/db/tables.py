@@ -1,6 +1,6 @@
-"""The tables: every state the store can be in, as types and constraints.
+"""The tables. Types and constraints define every state that the store can be in.
 
-Money is whole micro-units, so that sums are exact.
+Amounts are whole micro-units, so that sums are exact.
 """
 
 from sqlalchemy import (
@@ -37,7 +37,7 @@ RowId = BigInteger().with_variant(Integer, "sqlite")
 
 
 def one_of(column: str, *values: str) -> CheckConstraint:
-    """Return the constraint that a column holds one of these words."""
+    """Return the constraint that a column has one of these values."""
     words = ", ".join(f"'{value}'" for value in values)
     return CheckConstraint(f"{column} IN ({words})", name=column)
 
@@ -54,7 +54,7 @@ users = Table(
     sqlite_autoincrement=True,
 )
 
-# What proves who calls; only a SHA-256 of each secret is kept. A login code is revoked by its first use.
+# Tokens, sessions and login codes. Only a SHA-256 of each secret is stored. The first use of a login code revokes it.
 credentials = Table(
     "credentials",
     metadata,
@@ -94,7 +94,7 @@ runs = Table(
     Column("finished_at", Float),
     # The share of an annotator's queries in this run that are gold.
     Column("gold_rate", Float, nullable=False, server_default=text("0")),
-    # Set in the shadow of another run, where gold queries are answered: nothing in it is ever that run's.
+    # Set in a shadow run: the run whose gold queries are answered here. Nothing of a shadow belongs to that run.
     Column("gold_of", Text, ForeignKey("runs.id")),
     one_of("state", "running", "paused", "finished"),
     CheckConstraint("gold_rate >= 0 AND gold_rate <= 0.5", name="gold_rate"),
@@ -115,7 +115,7 @@ queries = Table(
     Column("kind", Text, nullable=False),
     Column("state", Text, nullable=False),
     Column("priority", Integer, nullable=False),
-    # The run's, kept here too: the next query is found by one index, without looking at any run.
+    # A copy of the run's priority, so that one index finds the next query without reading runs.
     Column("run_priority", Integer, nullable=False, server_default=text("0")),
     Column("ask", Text, nullable=False),
     Column("digest", Text, nullable=False),
@@ -124,10 +124,10 @@ queries = Table(
     Column("answer_id", RowId, ForeignKey("answers.id", use_alter=True), unique=True),
     Column("used", Boolean, nullable=False),
     Column("created_at", Float, nullable=False),
-    # Who answered its episode last when it was asked; kept here, or handing out would read all answers of an episode.
+    # The user who had answered the episode last when the query was asked, so that leasing need not read all answers.
     Column("follows_user_id", RowId, ForeignKey("users.id")),
     one_of("kind", *KINDS),
-    # open -> leased -> answered | cancelled; leased -> open: given back or expired; answered -> leased: retracted.
+    # open -> leased -> answered | cancelled; leased -> open: released or expired; answered -> leased: retracted.
     one_of("state", "open", "leased", "answered", "cancelled"),
     CheckConstraint("(state = 'answered') = (answer_id IS NOT NULL)", name="answered"),
     CheckConstraint("NOT used OR state = 'answered'", name="used_is_answered"),
@@ -152,14 +152,14 @@ assignments = Table(
     Column("id", RowId, primary_key=True),
     Column("query_id", RowId, ForeignKey("queries.id"), nullable=False, index=True),
     Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
-    # Fences one lease; worthless without its owner's login, so it is kept as it is.
+    # Fences one lease. It is useless without its owner's login, so it is stored in clear text.
     Column("token", Text, nullable=False),
     Column("state", Text, nullable=False),
     Column("deferring", Boolean, nullable=False),
-    # The assignment whose answer's reply handed this one out.
+    # The assignment whose answer's reply handed out this one.
     Column("after_id", RowId, ForeignKey("assignments.id"), index=True),
     Column("reason", Text),
-    Column("tab", Text),  # the page that asked for it, if it said so
+    Column("tab", Text),  # the browser tab that asked for it, if it gave a name
     Column("leased_at", Float, nullable=False),
     Column("expires_at", Float, nullable=False),
     Column("ended_at", Float),
@@ -172,11 +172,11 @@ Index("uq_assignments_live", assignments.c.query_id, unique=True, sqlite_where=_
 Index("ix_assignments_expiry", assignments.c.expires_at, sqlite_where=_live, postgresql_where=_live)
 Index("ix_assignments_user_live", assignments.c.user_id, sqlite_where=_live, postgresql_where=_live)
 
-# Spelled out rather than bound, so that the databases see that the partial indexes above serve these conditions.
+# Literals rather than bound values, so that the databases use the partial indexes above.
 IS_OPEN = queries.c.state == literal_column("'open'")
 IS_LIVE = assignments.c.state == literal_column("'live'")
 
-# Immutable (a trigger holds it). What counts is what queries.answer_id names; a late answer has no revision.
+# Immutable (enforced by a trigger). The answer that counts is queries.answer_id; a late answer has no revision.
 answers = Table(
     "answers",
     metadata,
@@ -201,7 +201,7 @@ answers = Table(
     sqlite_autoincrement=True,
 )
 
-# Append-only (a trigger holds it): every cost there is, and every refund.
+# Append-only (enforced by a trigger): every charge and every refund.
 ledger = Table(
     "ledger",
     metadata,
@@ -237,8 +237,8 @@ skips = Table(
     Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
 )
 
-# Pages that have gone: what is still under way to them is leased to nobody.
-departures = Table(
+# Browser tabs that were closed. They get no new leases.
+closed_tabs = Table(
     "departures",
     metadata,
     Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
@@ -246,7 +246,7 @@ departures = Table(
     Column("at", Float, nullable=False),
 )
 
-# Who has asked for work of late, so that a deferring bot can leave it to them. No run or kinds: all.
+# The last request for a query by each user, so that a deferring bot can leave queries to people. Null means any.
 presence = Table(
     "presence",
     metadata,
@@ -256,8 +256,8 @@ presence = Table(
     Column("asked_at", Float, nullable=False),
 )
 
-# How long an annotator has been active since the last answer. A person's time counts once, whatever they hold.
-activity = Table(
+# Each annotator's active seconds since their last answer.
+active_time = Table(
     "activity",
     metadata,
     Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
@@ -266,7 +266,7 @@ activity = Table(
     CheckConstraint("active_seconds >= 0", name="not_negative"),
 )
 
-# Pictures of states, by the SHA-256 of the file; never changed, and kept for as long as the store.
+# Pictures of states, identified by the SHA-256 of the file. Never changed, never deleted.
 frames = Table(
     "frames",
     metadata,
@@ -298,7 +298,7 @@ events = Table(
     sqlite_autoincrement=True,
 )
 
-# Queries of a run whose answers are known.
+# Gold queries: queries of a run with known answers.
 gold = Table(
     "gold",
     metadata,
@@ -308,7 +308,7 @@ gold = Table(
     Column("ask", Text, nullable=False),
     Column("accepted", Text, nullable=False),
     Column("digest", Text, nullable=False),
-    # The query it was marked from, and who answered that: it is never put to them.
+    # The query it was made from, and that query's annotator, who never gets this gold query.
     Column("query_id", RowId, ForeignKey("queries.id")),
     Column("author_id", RowId, ForeignKey("users.id")),
     Column("created_at", Float, nullable=False),
@@ -318,8 +318,8 @@ gold = Table(
     sqlite_autoincrement=True,
 )
 
-# One gold query put to one annotator: a query in the run's shadow, and how many of its labels were right.
-probes = Table(
+# One showing of a gold query to one annotator: a query in the run's shadow, and how many labels were right.
+gold_showings = Table(
     "probes",
     metadata,
     Column("query_id", RowId, ForeignKey("queries.id"), primary_key=True),
@@ -333,7 +333,7 @@ probes = Table(
     Index("ix_probes_gold", "gold_id"),
 )
 
-# How many queries of a run an annotator has been handed since it has a gold rate: where in the stream they are.
+# How many queries of a run an annotator has got since the run has a gold rate.
 gold_streams = Table(
     "gold_streams",
     metadata,

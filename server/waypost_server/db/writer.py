@@ -1,4 +1,4 @@
-"""Writers: they run units of work and acknowledge each only after the commit that made it durable."""
+"""Writers: they run transactions and acknowledge each one only after the commit that made it durable."""
 
 import random
 import threading
@@ -13,41 +13,41 @@ from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import DBAPIError, OperationalError
 
 from waypost_server import errors
+from waypost_server.db.wakeups import Topics
 
 T = TypeVar("T")
-Topics = set[str]
 Work = Callable[[Connection, Topics], T]
 
 LARGEST_BATCH = 128
 ATTEMPTS = 8
-RETRIED = {"40001", "40P01"}  # serialization failure, deadlock
+RETRIED = {"40001", "40P01"}  # PostgreSQL: serialization failure, deadlock
 
 
 class Writer(Protocol):
-    """Runs units of work, each all or nothing."""
+    """Runs transactions, each all or nothing."""
 
     def submit(self, work: Work[T]) -> Future[T]:
-        """Queue a unit of work; the future resolves after its commit."""
+        """Queue a transaction; the future resolves after its commit."""
         ...
 
     def close(self) -> None:
-        """Finish what was submitted, then stop."""
+        """Finish submitted transactions, then stop."""
         ...
 
 
 @dataclass(frozen=True)
 class Job:
-    """A unit of work and the future of whoever waits for it."""
+    """A transaction and the future that its caller waits for."""
 
     work: Work[Any]
     future: Future[Any]
 
 
 class GroupCommit:
-    """One thread and one connection: what waits is run together, each in a savepoint, and committed once.
+    """One thread with one connection: all waiting transactions run together, each in a savepoint, and commit once.
 
-    With `synchronous=FULL` a commit costs a disk sync. Sharing it among all who wait keeps many annotators as fast as
-    one, and an answer is still acknowledged only after the sync.
+    With `synchronous=FULL` a commit costs a disk sync. Waiting requests share the sync, so many annotators are served
+    as fast as one, and an answer is still acknowledged only after the sync.
     """
 
     def __init__(self, engine: Engine, committed: Callable[[Topics], None]) -> None:
@@ -58,13 +58,13 @@ class GroupCommit:
         self._thread.start()
 
     def submit(self, work: Work[T]) -> Future[T]:
-        """Queue a unit of work; the future resolves after its commit."""
+        """Queue a transaction; the future resolves after its commit."""
         future: Future[T] = Future()
         self._jobs.put(Job(work, future))
         return future
 
     def close(self) -> None:
-        """Finish what was submitted, then stop."""
+        """Finish submitted transactions, then stop."""
         self._jobs.put(None)
         self._thread.join()
 
@@ -80,14 +80,14 @@ class GroupCommit:
                     last = True
                 else:
                     batch.append(job)
-            # From here on a waiter that gives up can no longer cancel: the outcome always has a place to go.
+            # From here on, a caller can no longer cancel its future, so every outcome can be delivered.
             if begun := [job for job in batch if job.future.set_running_or_notify_cancel()]:
                 self._run(begun)
             if last:
                 return
 
     def _run(self, batch: list[Job]) -> None:
-        """Commit a batch; if the store itself fails, each job of it gets a transaction of its own."""
+        """Commit a batch. If the database fails, run each job of the batch in a transaction by itself."""
         try:
             self._commit(batch)
         except DBAPIError as error:
@@ -106,7 +106,7 @@ class GroupCommit:
         with self._engine.begin() as conn:
             for job in batch:
                 outcomes.append(_in_savepoint(conn, job.work, topics))
-        # Only here is the batch on disk.
+        # The batch is on disk from here on.
         if topics:
             self._committed(topics)
         for job, (result, error) in zip(batch, outcomes, strict=True):
@@ -117,7 +117,7 @@ class GroupCommit:
 
 
 def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:
-    """Run one unit of work; what it refuses leaves no trace, but a failing store fails the whole batch."""
+    """Run one job. A refusal leaves no trace; a failing database fails the whole batch."""
     woken: Topics = set()
     savepoint = conn.begin_nested()
     try:
@@ -133,7 +133,7 @@ def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[An
 
 
 class CommittingThreads:
-    """A few threads; each unit of work is a transaction of its own, tried again if the database asks for that."""
+    """A few threads: each job is a transaction by itself, retried after a serialization failure or a deadlock."""
 
     def __init__(self, engine: Engine, committed: Callable[[Topics], None], threads: int) -> None:
         self._engine = engine
@@ -141,11 +141,11 @@ class CommittingThreads:
         self._pool = ThreadPoolExecutor(threads, "waypost-write")
 
     def submit(self, work: Work[T]) -> Future[T]:
-        """Queue a unit of work; the future resolves after its commit."""
+        """Queue a transaction; the future resolves after its commit."""
         return self._pool.submit(self._run, work)
 
     def close(self) -> None:
-        """Finish what was submitted, then stop."""
+        """Finish submitted transactions, then stop."""
         self._pool.shutdown()
 
     def _run(self, work: Work[T]) -> T:

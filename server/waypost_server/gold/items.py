@@ -1,7 +1,7 @@
-"""Gold queries: those of a run whose answers are known, marked from its own or brought along.
+"""Gold queries: queries of a run with known answers. They come from answered queries of the run or from a client.
 
-They are answered in the run's shadow, a row of `runs` of its own that nobody sees: whatever is kept by run, the
-ledger, answers, events, curves, can hold nothing of them.
+They are answered in the run's shadow: a separate row of `runs` that no API call shows. The ledger, answers, events and
+curves are kept by run, so none of them can contain anything of a gold query.
 """
 
 import secrets
@@ -13,10 +13,10 @@ from sqlalchemy import ColumnElement, Row, case, func, insert, select, update
 from waypost import wire
 from waypost_server import errors
 from waypost_server.db import canonical
-from waypost_server.db.engine import Tx
-from waypost_server.db.tables import answers, gold, probes, users
+from waypost_server.db.tables import answers, gold, gold_showings, users
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as run_table
+from waypost_server.db.transaction import Tx
 from waypost_server.gold import scoring
 from waypost_server.queries import checks
 from waypost_server.queries import service as queries
@@ -27,7 +27,7 @@ _COPIED = ("user_id", "name", "algorithm", "seed", "vocabulary", "prices")
 
 @dataclass(frozen=True)
 class Item:
-    """A query to be gold, and where it is from."""
+    """A query to make gold, and its origin."""
 
     ask: wire.Ask
     known: wire.Known
@@ -36,16 +36,16 @@ class Item:
 
 
 def agreement() -> ColumnElement[float | None]:
-    """Return the share of right labels among those of the probes a statement groups; null if there are none."""
-    n_labels = func.sum(probes.c.n_labels)
-    return case((n_labels > 0, func.sum(probes.c.n_right) * 1.0 / n_labels), else_=None)
+    """Return the share of right labels over the showings that a statement groups; null if there are none."""
+    n_labels = func.sum(gold_showings.c.n_labels)
+    return case((n_labels > 0, func.sum(gold_showings.c.n_right) * 1.0 / n_labels), else_=None)
 
 
 def add(tx: Tx, run: str, wanted: wire.GoldPost) -> wire.GoldList:
-    """Make queries gold; what is gold already stays, and what was retired comes back.
+    """Make queries gold. Gold queries stay gold; retired ones become active again.
 
     Raises:
-        NotFound, NotAnswered, Unprocessable: for a query that is not the run's, has no answer, or cannot be gold.
+        NotFound, NotAnswered, Unprocessable: a query is not of this run, has no answer, or cannot be gold.
     """
     row = runs.lock(tx, run)
     names = checks.Names.of(wire.Vocabulary.model_validate_json(row.vocabulary))
@@ -70,7 +70,7 @@ def _answered(tx: Tx, run: str, query: int) -> Item:
     if found is None or found.run_id != run:
         raise errors.NotFound(f"The run has no query {query}.")
     if found.content is None:
-        raise errors.NotAnswered(f"Query {query} has no answer that could be the right one.")
+        raise errors.NotAnswered(f"Query {query} has no answer, so it cannot be gold.")
     known = scoring.exactly(queries.ANSWER.validate_json(found.content))
     return Item(queries.ASK.validate_json(found.ask), known, query, found.user_id)
 
@@ -79,7 +79,7 @@ def _ensure_shadow(tx: Tx, row: Row[Any]) -> None:
     if shadow_of(tx, row.id) is not None:
         return
     copied = {name: row._mapping[name] for name in _COPIED}
-    # Paused, so that the queue never offers what is in it by itself.
+    # Paused, so that the queue never offers its queries by itself.
     state = {"state": "finished", "finished_at": tx.now} if row.state == "finished" else {"state": "paused"}
     tx.conn.execute(
         insert(run_table).values(
@@ -96,7 +96,7 @@ def _ensure_shadow(tx: Tx, row: Row[Any]) -> None:
 
 
 def shadow_of(tx: Tx, run: str) -> str | None:
-    """Return the id of a run's shadow, if it has ever had gold queries."""
+    """Return the id of a run's shadow; None if the run never had gold queries."""
     return tx.conn.execute(select(run_table.c.id).where(run_table.c.gold_of == run)).scalar_one_or_none()
 
 
@@ -127,11 +127,11 @@ def of_run(tx: Tx, run: str) -> wire.GoldList:
         select(
             gold,
             users.c.name.label("author"),
-            func.count(probes.c.n_labels).label("given"),
+            func.count(gold_showings.c.n_labels).label("given"),
             agreement().label("agreed"),
         )
         .outerjoin(users, users.c.id == gold.c.author_id)
-        .outerjoin(probes, probes.c.gold_id == gold.c.id)
+        .outerjoin(gold_showings, gold_showings.c.gold_id == gold.c.id)
         .where(gold.c.run_id == run, gold.c.retired_at.is_(None))
         .group_by(gold.c.id, users.c.name)
         .order_by(gold.c.id.desc())
@@ -155,10 +155,10 @@ def _of_row(row: Row[Any]) -> wire.Gold:
 
 
 def retire(tx: Tx, run: str, item: int) -> None:
-    """Put a gold query to nobody any more; what was answered to it stays.
+    """Retire a gold query: no annotator gets it any more. Answers to it stay.
 
     Raises:
-        NotFound: if the run has no such gold query.
+        NotFound: the run has no such gold query.
     """
     runs.find(tx, run)
     retired = tx.conn.execute(

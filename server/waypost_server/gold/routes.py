@@ -1,8 +1,6 @@
-"""Gold queries of a run: made, listed, retired."""
+"""Gold queries of a run: added, listed, retired."""
 
-from typing import Annotated
-
-from fastapi import APIRouter, Path
+from fastapi import APIRouter
 
 from waypost import wire
 from waypost_server import errors
@@ -10,6 +8,7 @@ from waypost_server.auth.permissions import LearnerCalls
 from waypost_server.gold import items
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
+from waypost_server.http.parameters import RowPath
 from waypost_server.http.problems import refusals
 
 router = APIRouter(prefix="/runs/{run}/gold", tags=["gold"], route_class=JsonRoute)
@@ -17,21 +16,21 @@ router = APIRouter(prefix="/runs/{run}/gold", tags=["gold"], route_class=JsonRou
 
 @router.post("", operation_id="addGold", responses=refusals(errors.NotFound, errors.NotAnswered))
 async def add_gold(run: str, body: wire.GoldPost, context: Ctx, _: LearnerCalls) -> wire.GoldList:
-    """Make queries gold: answered ones of this run, or others whose answers are known. All of them or none.
+    """Make queries gold: answered queries of this run, or other queries with known answers. All of them or none.
 
-    The run's `gold_rate` says how often they are put to annotators, who cannot tell them from the learner's. They
-    are never in its ledger, and the learner never sees them.
+    The run's `gold_rate` is the share of each annotator's queries that are gold. They look like the learner's queries.
+    They are never in the run's ledger, and the learner never sees them.
     """
     return await context.db.write(lambda tx: items.add(tx, run, body))
 
 
 @router.get("", operation_id="listGold", responses=refusals(errors.NotFound))
 async def list_gold(run: str, context: Ctx, _: LearnerCalls) -> wire.GoldList:
-    """List the run's gold queries, newest first, with what annotators made of them."""
+    """List the run's gold queries, newest first, with how well annotators answered them."""
     return await context.db.read(lambda tx: items.of_run(tx, run))
 
 
 @router.delete("/{item}", status_code=204, operation_id="retireGold", responses=refusals(errors.NotFound))
-async def retire_gold(run: str, item: Annotated[int, Path(ge=1, le=2**63 - 1)], context: Ctx, _: LearnerCalls) -> None:
-    """Put a gold query to nobody any more; what was answered to it stays."""
+async def retire_gold(run: str, item: RowPath, context: Ctx, _: LearnerCalls) -> None:
+    """Retire a gold query: no annotator gets it any more. Answers to it stay."""
     await context.db.write(lambda tx: items.retire(tx, run, item))

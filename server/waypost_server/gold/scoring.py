@@ -1,6 +1,6 @@
-"""What is right: known answers checked, and answers marked against them, label by label.
+"""Scoring: answers compared with known answers, label by label.
 
-A label is a verdict, a subgoal, an action, or that a segment is done; of several right choices each counts as right.
+A label is a verdict, a subgoal, an action, or the termination of a segment. A label can have several right choices.
 """
 
 from collections.abc import Sequence
@@ -19,10 +19,10 @@ DONE, NOT_DONE = "(done)", "(not done)"
 
 
 def exactly(answer: wire.Answer) -> wire.Known:
-    """Return what an answer says as the only thing that is right.
+    """Return the known answer for which only this answer is right.
 
     Raises:
-        Unprocessable: a demonstration; many others would be as good, and nothing here can carry them out.
+        Unprocessable: a demonstration. Many others would be as good, and the server cannot simulate them.
     """
     match answer:
         case wire.InspectAnswer():
@@ -31,18 +31,18 @@ def exactly(answer: wire.Answer) -> wire.Known:
             return wire.KnownSubgoals(kind="label_hi", subgoals=[[name] for name in answer.subgoals])
         case wire.LabelLoAnswer():
             end = _end(answer)
-            names = cast(list[str], answer.actions[:end])  # none is null before the end
+            names = cast(list[str], answer.actions[:end])  # no action is null before the end
             return wire.KnownSegment(kind="label_lo", actions=[[name] for name in names], end=end)
         case wire.LabelFullAnswer():
             return wire.KnownActions(kind="label_full", actions=[[name] for name in answer.actions])
         case wire.HierDemoAnswer():
-            raise Unprocessable(["body", "answered"], "a demonstration cannot be gold; there are many as good")
+            raise Unprocessable(["body", "answered"], "a demonstration cannot be gold, because many others are as good")
         case _:
             assert_never(answer)
 
 
 def check(ask: wire.Ask, known: wire.Known, names: checks.Names, at: Location) -> None:
-    """Refuse what cannot be right for a query: another kind, another length, names the run does not have."""
+    """Refuse a known answer that does not fit its query: wrong kind or length, or names that the run lacks."""
     if known.kind != ask.kind:
         raise Unprocessable([*at, "kind"], f"is {known.kind}; the query is {ask.kind}")
     match known, ask:
@@ -64,7 +64,7 @@ def check(ask: wire.Ask, known: wire.Known, names: checks.Names, at: Location) -
 
 
 def marks(known: wire.Known, answer: wire.Answer) -> list[wire.Mark]:
-    """Mark each label of an answer that fits its query."""
+    """Compare each label of an answer with the known answer. The answer must fit the query."""
     match known, answer:
         case wire.KnownVerdict(), wire.InspectAnswer():
             return _marks([answer.verdict], [[known.verdict]])
@@ -84,7 +84,7 @@ def _end(answer: wire.LabelLoAnswer) -> int | None:
 
 
 def _of_states(answer: wire.LabelLoAnswer) -> list[str | None]:
-    """Return the label of each state: its action, or that the segment is done there; after that there is none."""
+    """Return each state's label: its action, `DONE` where the segment should end, None after that."""
     end = _end(answer)
     if end is None:
         return [*answer.actions, NOT_DONE]

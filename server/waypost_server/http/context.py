@@ -1,4 +1,4 @@
-"""What every request can reach: the settings, the store, the wake-ups."""
+"""The context of a request: the settings, the store and the wake-ups of the server that handles it."""
 
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
@@ -7,11 +7,8 @@ from typing import Annotated, cast
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
-from waypost_server.auth.lookup import Attempts, Credentials
 from waypost_server.db.engine import Database
 from waypost_server.db.wakeups import Hub
-from waypost_server.gold.practice import PracticeSet
-from waypost_server.play.relay import Relay
 from waypost_server.settings import Settings
 
 try:
@@ -22,15 +19,11 @@ except PackageNotFoundError:  # run from a checkout that was not installed
 
 @dataclass(frozen=True)
 class Context:
-    """One server's state."""
+    """What every request can use."""
 
     settings: Settings
     db: Database
     hub: Hub
-    credentials: Credentials
-    attempts: Attempts
-    practice: PracticeSet
-    relay: Relay
 
 
 async def context_of(connection: HTTPConnection) -> Context:

@@ -1,4 +1,4 @@
-"""The outermost layer: which hosts are answered, how large a body may be, and the headers every response carries."""
+"""The outermost middleware: accepted host names, limits on request bodies, and security headers."""
 
 import asyncio
 import json
@@ -11,7 +11,7 @@ from waypost_server import errors
 from waypost_server.http import problems
 
 LOOPBACK = ("localhost", "127.0.0.1", "::1")
-PROBES = ("/healthz", "/readyz")
+HEALTH_PATHS = ("/healthz", "/readyz")
 
 HEADERS = {
     "Content-Security-Policy": (
@@ -33,7 +33,7 @@ def host_name(header: str) -> str:
 
 
 class Guard:
-    """ASGI middleware that refuses what must not reach the app."""
+    """ASGI middleware that refuses requests that must not reach the app."""
 
     def __init__(self, app: ASGIApp, hosts: Iterable[str], max_body_bytes: int, body_seconds: float) -> None:
         self._app = app
@@ -42,7 +42,7 @@ class Guard:
         self._body_seconds = body_seconds
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Refuse, or pass on with the body read and the headers set."""
+        """Refuse the request, or read its body and pass it on; add headers to the response."""
         if scope["type"] == "websocket":
             await self._socket(scope, receive, send)
             return
@@ -69,7 +69,7 @@ class Guard:
             await self._app(scope, replayed(body, receive), send_with_headers)
 
     async def _socket(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Refuse a socket to another host, or pass it on; the size of its messages is uvicorn's to bound."""
+        """Refuse a socket to another host, or pass it on. Uvicorn limits the size of its messages."""
         try:
             self._check_host(scope)
         except errors.Misdirected as refusal:
@@ -79,13 +79,13 @@ class Guard:
 
     def _check_host(self, scope: Scope) -> None:
         host = host_name(Headers(scope=scope).get("host", ""))
-        if host not in self._hosts and "*" not in self._hosts and scope["path"] not in PROBES:
+        if host not in self._hosts and "*" not in self._hosts and scope["path"] not in HEALTH_PATHS:
             raise errors.Misdirected(
                 f"{json.dumps(host)} is not a name of this server; its operator can add it to WAYPOST_HOSTS."
             )
 
     async def _body(self, scope: Scope, receive: Receive) -> bytes | None:
-        """Return the whole body, bounded in size and time; nothing if the client left."""
+        """Return the whole body within the limits of size and time, or None if the client disconnected."""
         headers = Headers(scope=scope)
         length = headers.get("content-length", "0")
         if "transfer-encoding" not in headers and length == "0":
@@ -94,7 +94,7 @@ class Guard:
             raise self._too_large()
         media_type = headers.get("content-type", "").partition(";")[0].strip().lower()
         if media_type != "application/json":
-            raise errors.NotJson("Bodies are JSON: send `Content-Type: application/json`.")
+            raise errors.NotJson("Bodies must be JSON: send `Content-Type: application/json`.")
         try:
             async with asyncio.timeout(self._body_seconds):
                 return await self._read(receive)
@@ -116,11 +116,11 @@ class Guard:
         return b"".join(parts)
 
     def _too_large(self) -> errors.BodyTooLarge:
-        return errors.BodyTooLarge(f"A body may have {self._max_body_bytes} bytes; send less at a time.")
+        return errors.BodyTooLarge(f"A body may have at most {self._max_body_bytes} bytes; send less at a time.")
 
 
 def replayed(body: bytes, receive: Receive) -> Receive:
-    """Return a receive that gives a body read before, and then what else comes."""
+    """Return a `receive` that first returns this body, then the messages that follow it."""
     given = False
 
     async def again() -> Message:

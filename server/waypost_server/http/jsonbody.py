@@ -1,4 +1,4 @@
-"""Bodies read as strict JSON: bounded depth, no NaN, no broken strings."""
+"""Strict JSON bodies: bounded depth, no NaN, no broken strings."""
 
 import json
 from collections.abc import Callable, Coroutine
@@ -10,10 +10,10 @@ from pydantic_core import from_json
 
 
 class JsonRequest(Request):
-    """A request whose JSON is parsed as strictly as RFC 8259 lets one (and to a depth of 200)."""
+    """A request whose body is parsed as strictly as RFC 8259 allows, to a depth of 200."""
 
     async def json(self) -> Any:
-        """Parse the body; what is not JSON becomes a 422 that says where."""
+        """Parse the body. A body that is not JSON becomes a 422 that says where."""
         try:
             return from_json(await self.body(), allow_inf_nan=False)
         except ValueError as error:
@@ -21,10 +21,10 @@ class JsonRequest(Request):
 
 
 class JsonRoute(APIRoute):
-    """A route that parses its body so."""
+    """A route whose body is parsed strictly."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
-        """Return FastAPI's handler, given the stricter request."""
+        """Return FastAPI's handler, called with the strict request."""
         handler = super().get_route_handler()
 
         async def handle(request: Request) -> Response:

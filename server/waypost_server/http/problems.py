@@ -1,4 +1,4 @@
-"""Refusals on the wire: RFC 9457 problem documents, and their place in the OpenAPI document."""
+"""Errors over HTTP: RFC 9457 problem documents, and their description for OpenAPI."""
 
 import http
 import logging
@@ -40,13 +40,13 @@ def render(refusal: Refusal, instance: str | None = None) -> JSONResponse:
 
 
 def field_path(location: tuple[str | int, ...]) -> list[str | int]:
-    """Return where a field is, without the tags pydantic adds for the members of a union."""
+    """Return the path of a field, without the tags that pydantic adds for members of a union."""
     last = len(location) - 1
     return [part for place, part in enumerate(location) if place == last or part not in wire.KINDS]
 
 
 def invalid(error: RequestValidationError) -> dict[str, Any]:
-    """Return the problem document of a request that does not fit its schema."""
+    """Return the problem document for a request that does not match its schema."""
     faults = [
         {"loc": field_path(fault["loc"]), "msg": fault["msg"], "type": fault["type"]} for fault in error.errors()[:100]
     ]
@@ -56,7 +56,7 @@ def invalid(error: RequestValidationError) -> dict[str, Any]:
 
 
 def install(app: FastAPI) -> None:
-    """Answer every error of the app with a problem document."""
+    """Make the app answer every error with a problem document."""
 
     @app.exception_handler(Refusal)
     async def refused(request: Request, error: Refusal) -> JSONResponse:
@@ -82,7 +82,7 @@ def install(app: FastAPI) -> None:
 
 
 def refusals(*kinds: type[Refusal]) -> dict[int | str, dict[str, Any]]:
-    """Return the `responses=` of a route that may refuse in these ways, besides those every route shares."""
+    """Return the `responses=` of a route with these refusals. Those that every route shares are added elsewhere."""
     responses: dict[int | str, dict[str, Any]] = {}
     for kind in kinds:
         example = document(kind.status, kind.name, kind.title, (kind.__doc__ or "").split("\n")[0])

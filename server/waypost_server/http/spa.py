@@ -1,4 +1,4 @@
-"""The built page: its files, cached for good when their names carry a hash, and index.html for every other address."""
+"""The files of the web app. Files with a hash in their name are cached forever; other paths get index.html."""
 
 from pathlib import Path
 
@@ -6,13 +6,13 @@ from fastapi import FastAPI, HTTPException, Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
 
 MISSING = (
-    "Waypost is running; its page is not built. `make web` builds it; the API is under /api/v1 and described in "
-    "/api/v1/openapi.json.\n"
+    "Waypost is running, but its web app is not built; `make web` builds it. The API is at /api/v1; "
+    "/api/v1/openapi.json describes it.\n"
 )
 
 
 def find() -> Path | None:
-    """Return the folder of the built page: packaged with the server, or built beside it in a checkout."""
+    """Return the folder of the built web app: inside the installed package, or in web/dist of a checkout."""
     package = Path(__file__).resolve().parents[1]
     for folder in (package / "static", package.parents[1] / "web" / "dist"):
         if (folder / "index.html").is_file():
@@ -21,10 +21,10 @@ def find() -> Path | None:
 
 
 def install(app: FastAPI, folder: Path | None) -> None:
-    """Serve the page on every GET that no other route takes."""
+    """Serve the web app on every GET that no other route handles."""
 
     @app.get("/{path:path}", include_in_schema=False)
-    async def page(request: Request, path: str) -> Response:
+    async def web_app(request: Request, path: str) -> Response:
         if path == "api" or path.startswith("api/"):
             raise HTTPException(404, f"There is no {request.url.path}; /api/v1/openapi.json lists what there is.")
         root = folder or find()
@@ -41,7 +41,7 @@ def install(app: FastAPI, folder: Path | None) -> None:
 
 
 def _file(root: Path, path: str) -> Path | None:
-    """Return a file of the page, and never one from outside of its folder."""
+    """Return a file of the web app; never a file outside its folder."""
     if "\x00" in path:
         return None
     found = (root / path).resolve()

@@ -1,58 +1,58 @@
-"""Active seconds: how long an annotator has worked since the last answer, by the database's clock.
+"""Active time: an annotator's seconds of work since the last answer, by the database's clock, without idle time.
 
-A lease, a heartbeat that says so, and an answer are signs of activity. The gap between two of them counts, but never
-more than the idle cap, so a coffee costs nothing. A person's time counts once, however many queries they hold: one
-that is leased ahead begins to cost when the one before it is answered.
+A lease, a heartbeat marked active, and an answer are signs of activity. The gap between two signs counts at most
+`idle_seconds`, so a break costs nothing. Time counts once, however many queries an annotator holds: the time for a
+query leased ahead starts when the query before it is answered.
 """
 
 from typing import Any
 
 from sqlalchemy import bindparam, exists, select, update
 
-from waypost_server.db.engine import UPSERTS, Tx
-from waypost_server.db.tables import IS_LIVE, activity, assignments
+from waypost_server.db.tables import IS_LIVE, active_time, assignments
+from waypost_server.db.transaction import UPSERTS, Tx
 
-_KNOWN = select(activity).where(activity.c.user_id == bindparam("user")).with_for_update()
-_NOTE = (
-    update(activity)
-    .where(activity.c.user_id == bindparam("user"))
+_FIND = select(active_time).where(active_time.c.user_id == bindparam("user")).with_for_update()
+_RECORD = (
+    update(active_time)
+    .where(active_time.c.user_id == bindparam("user"))
     .values(active_seconds=bindparam("active"), signalled_at=bindparam("now"))
 )
 
 
-def _begin(insert: Any) -> Any:
+def _start(insert: Any) -> Any:
     started = {"active_seconds": 0.0, "signalled_at": bindparam("now")}
     holding = exists().where(assignments.c.user_id == bindparam("user"), IS_LIVE)
-    new = insert(activity).values(user_id=bindparam("user"), **started)
+    new = insert(active_time).values(user_id=bindparam("user"), **started)
     return new.on_conflict_do_update(index_elements=["user_id"], set_=started, where=~holding)
 
 
-_BEGIN = {name: _begin(insert) for name, insert in UPSERTS.items()}
+_START = {name: _start(insert) for name, insert in UPSERTS.items()}
 
 
-def begin(tx: Tx, user: int) -> None:
-    """Start the clock for an annotator who is given a query and holds no other."""
-    tx.conn.execute(_BEGIN[tx.conn.dialect.name], {"user": user, "now": tx.now})
+def start(tx: Tx, user: int) -> None:
+    """Start the clock of an annotator who gets a query and holds no other."""
+    tx.conn.execute(_START[tx.conn.dialect.name], {"user": user, "now": tx.now})
 
 
 def signal(tx: Tx, user: int, idle_seconds: float) -> None:
-    """Count the time since the last sign of activity, up to the cap."""
-    _note(tx, user, _active(tx, user, idle_seconds))
+    """Count the time since the last sign of activity, at most `idle_seconds`."""
+    _record(tx, user, _active(tx, user, idle_seconds))
 
 
 def take(tx: Tx, user: int, idle_seconds: float) -> float:
-    """Return the active seconds since the last answer, and start over."""
+    """Return the active seconds since the last answer, and start again from 0."""
     active = _active(tx, user, idle_seconds)
-    _note(tx, user, 0.0)
+    _record(tx, user, 0.0)
     return active
 
 
 def _active(tx: Tx, user: int, idle_seconds: float) -> float:
-    row = tx.conn.execute(_KNOWN, {"user": user}).one_or_none()
-    if row is None:  # the lease is older than this table
+    row = tx.conn.execute(_FIND, {"user": user}).one_or_none()
+    if row is None:  # the lease was granted before this table existed
         return 0.0
     return float(row.active_seconds + min(max(tx.now - row.signalled_at, 0.0), idle_seconds))
 
 
-def _note(tx: Tx, user: int, active: float) -> None:
-    tx.conn.execute(_NOTE, {"user": user, "active": active, "now": tx.now})
+def _record(tx: Tx, user: int, active: float) -> None:
+    tx.conn.execute(_RECORD, {"user": user, "active": active, "now": tx.now})

@@ -1,33 +1,35 @@
-"""Who is at work: annotators who asked of late or hold a lease, so that a bot can leave the queries to them."""
+"""Presence: which annotators are at work, so that a bot can leave queries to them.
 
-from collections import defaultdict
+An annotator is at work who asked for a query recently or holds a lease.
+"""
+
 from collections.abc import Sequence
 from typing import Any
 
-from sqlalchemy import Row, and_, bindparam, exists, false, func, literal, or_, select
+from sqlalchemy import and_, bindparam, exists, false, func, literal, or_, select
 from sqlalchemy.sql.elements import ColumnElement
 
 from waypost import wire
-from waypost_server.db.engine import Tx
-from waypost_server.db.tables import IS_LIVE, assignments, presence, queries, runs, skips, users
+from waypost_server.db.tables import IS_LIVE, assignments, presence, queries, skips
+from waypost_server.db.transaction import Tx
 
 REFRESH_SECONDS = 3.0
 
-_KNOWN = select(presence).where(presence.c.user_id == bindparam("user"))
+_ROW_OF = select(presence).where(presence.c.user_id == bindparam("user"))
 
 
-def note(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None) -> None:
-    """Note that an annotator asks for work; a waiting one is noted every few seconds only."""
-    words = None if kinds is None else ",".join(sorted(kinds))
-    known = tx.conn.execute(_KNOWN, {"user": user}).one_or_none()
-    if known and (known.run_id, known.kinds) == (run, words) and known.asked_at > tx.now - REFRESH_SECONDS:
+def record(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None) -> None:
+    """Record that an annotator asks for a query; while they wait, only every `REFRESH_SECONDS`."""
+    names = None if kinds is None else ",".join(sorted(kinds))
+    known = tx.conn.execute(_ROW_OF, {"user": user}).one_or_none()
+    if known and (known.run_id, known.kinds) == (run, names) and known.asked_at > tx.now - REFRESH_SECONDS:
         return
-    values: dict[str, Any] = {"run_id": run, "kinds": words, "asked_at": tx.now}
+    values: dict[str, Any] = {"run_id": run, "kinds": names, "asked_at": tx.now}
     new = tx.upsert(presence).values(user_id=user, **values)
     tx.conn.execute(new.on_conflict_do_update(index_elements=["user_id"], set_=values))
 
 
-# Asked after `since`, or holds a lease `now`.
+# The annotator asked after `since`, or holds a lease at `now`.
 AT_WORK = or_(
     presence.c.asked_at > bindparam("since"),
     exists().where(
@@ -45,20 +47,20 @@ _OTHERS = select(func.count()).where(
 )
 
 
-def who_would_take(tx: Tx, seconds: float) -> ColumnElement[bool]:
-    """Return the condition that somebody at work takes a query: its kind, in its run, and has not skipped it."""
+def somebody_would_take(tx: Tx, seconds: float) -> ColumnElement[bool]:
+    """Return the condition that an annotator at work accepts a query: its kind and its run, and did not skip it."""
     at_work = tx.conn.execute(_AT_WORK, {"since": tx.now - seconds, "now": tx.now}).all()
     return or_(false(), *(_takes(row) for row in at_work))
 
 
 def others(tx: Tx, user: int, run: str | None, seconds: float) -> int:
-    """Return how many other annotators are at work who take queries of that run, or of any run."""
+    """Return how many other annotators at work accept queries of this run, or of any run."""
     known = {"since": tx.now - seconds, "now": tx.now, "user": user, "run": run}
     return int(tx.conn.execute(_OTHERS, known).scalar_one())
 
 
 def takes() -> ColumnElement[bool]:
-    """Return the condition that whoever a row of `presence` is about takes a query."""
+    """Return the condition that the annotator in a row of `presence` would get a query."""
     skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == presence.c.user_id)
     kinds = literal(",") + presence.c.kinds + ","
     return and_(
@@ -76,48 +78,3 @@ def _takes(row: Any) -> ColumnElement[bool]:
     if row.kinds is not None:
         takes.append(queries.c.kind.in_(row.kinds.split(",")))
     return and_(*takes)
-
-
-def at_work(tx: Tx, presence_seconds: float, lease_seconds: float, run: str | None) -> wire.AtWorkList:
-    """Return who asked for work of late or holds a query, bots too; of one run, or of all."""
-    held = _held(tx, lease_seconds)
-    names = select(users.c.id, users.c.name, presence).outerjoin(presence, presence.c.user_id == users.c.id)
-    there = or_(presence.c.asked_at > tx.now - presence_seconds, users.c.id.in_(list(held)))
-    found = [_at_work(row, held.get(row.id, [])) for row in tx.conn.execute(names.where(there))]
-    chosen = [one for one in found if run is None or _works_on(one, run)]
-    return wire.AtWorkList(annotators=sorted(chosen, key=lambda one: (-one.seen_at, one.annotator)))
-
-
-def _held(tx: Tx, lease_seconds: float) -> dict[int, list[tuple[float, wire.Holding]]]:
-    """Return what each user holds, oldest first, each with when its lease was last taken or renewed."""
-    live = (
-        select(assignments, queries.c.run_id, queries.c.kind, queries.c.episode)
-        .join(queries, queries.c.id == assignments.c.query_id)
-        .join(runs, runs.c.id == queries.c.run_id)
-        .where(IS_LIVE, assignments.c.expires_at > tx.now, runs.c.gold_of.is_(None))
-        .order_by(assignments.c.id)
-    )
-    held: dict[int, list[tuple[float, wire.Holding]]] = defaultdict(list)
-    for row in tx.conn.execute(live):
-        holding = wire.Holding(
-            query=row.query_id, run=row.run_id, kind=row.kind, episode=row.episode, leased_at=row.leased_at
-        )
-        held[row.user_id].append((max(row.leased_at, row.expires_at - lease_seconds), holding))
-    return held
-
-
-def _at_work(row: Row[Any], held: Sequence[tuple[float, wire.Holding]]) -> wire.AtWork:
-    return wire.AtWork(
-        annotator=row.name,
-        run=row.run_id,
-        kinds=row.kinds.split(",") if row.kinds else None,
-        seen_at=max([row.asked_at or 0.0, *(renewed_at for renewed_at, _ in held)]),
-        holds=[holding for _, holding in held],
-    )
-
-
-def _works_on(one: wire.AtWork, run: str) -> bool:
-    """Say whether somebody holds a query of a run, or waits for one."""
-    if one.holds:
-        return any(holding.run == run for holding in one.holds)
-    return one.run in (None, run)

@@ -1,6 +1,7 @@
-"""Which query an annotator gets next: by its run's priority, its own, the episode last answered, then age.
+"""Selection of an annotator's next query: by the run's priority, the query's, the episode last answered, then age.
 
-What follows up on somebody's answer is kept for them for a while, as long as they are at work.
+A query that follows an annotator's answer in the same episode (a follow-up) is reserved for that annotator for a
+while, as long as they are at work.
 """
 
 from dataclasses import dataclass
@@ -10,50 +11,25 @@ from typing import Any
 from sqlalchemy import Select, and_, bindparam, exists, not_, or_, select
 from sqlalchemy.sql.elements import ColumnElement
 
-from waypost import wire
-from waypost_server.db.engine import Tx
 from waypost_server.db.tables import IS_OPEN, answers, queries, runs, skips
 from waypost_server.db.tables import presence as present
+from waypost_server.db.transaction import Tx
 from waypost_server.leases import presence
-
-Kinds = tuple[wire.Kind, ...]
-
-
-@dataclass(frozen=True)
-class Taker:
-    """An annotator and what it would take."""
-
-    user: int
-    kinds: Kinds | None
-    run: str | None
-    defer: float
-    ahead: bool
-    presence_seconds: float
-    follow_up_seconds: float
-
-    def known(self, now: float) -> dict[str, Any]:
-        """Return what the statements are run with."""
-        return {
-            "user": self.user,
-            "run": self.run,
-            "now": now,
-            "since": now - self.presence_seconds,
-            "fresh": now - self.follow_up_seconds,
-        }
+from waypost_server.leases.request import Kinds, LeaseRequest
 
 
 @dataclass(frozen=True)
-class Offer:
-    """The statements that find the next query among those an annotator may have."""
+class Candidates:
+    """The statements that find the next query among those that an annotator may get."""
 
-    offered: Select[Any]
+    every: Select[Any]
     first: Select[Any]
     follow_up: Select[Any]
     unlocked: Select[Any]
 
     @classmethod
-    def among(cls, offered: Select[Any]) -> "Offer":
-        """Return the statements over some choice of open queries, best first."""
+    def among(cls, offered: Select[Any]) -> "Candidates":
+        """Return the statements that select from these open queries, best first."""
         last = (
             queries.c.run_id == bindparam("last_run"),
             queries.c.episode == bindparam("last_episode"),
@@ -79,51 +55,51 @@ _LAST_ANSWERED = (
 _LOCK_ONE = select(queries.c.id).where(queries.c.id == bindparam("query"), IS_OPEN).with_for_update(skip_locked=True)
 
 
-def take(tx: Tx, taker: Taker) -> int | None:
-    """Lock and return the next query: a follow-up if nothing has a higher priority, else the first."""
-    n_others = presence.others(tx, taker.user, taker.run, taker.presence_seconds)
-    offer = _offer(tx, taker, n_others > 0)
-    known = taker.known(tx.now)
-    if taker.ahead and not _is_enough(tx, offer, known, n_others):
+def select_next(tx: Tx, request: LeaseRequest) -> int | None:
+    """Return the next query, locked: a follow-up if no query has a higher priority, else the first. None if none."""
+    n_others = presence.others(tx, request.user, request.run, request.presence_seconds)
+    candidates = _candidates(tx, request, n_others > 0)
+    parameters = request.parameters(tx.now)
+    if request.ahead and not _leaves_enough(tx, candidates, parameters, n_others):
         return None
-    chosen = tx.conn.execute(offer.first, known).one_or_none()
+    chosen = tx.conn.execute(candidates.first, parameters).one_or_none()
     if chosen is None:
         return None
-    last = tx.conn.execute(_LAST_ANSWERED, known).one_or_none()
+    last = tx.conn.execute(_LAST_ANSWERED, parameters).one_or_none()
     if last is not None:
-        known |= {"last_run": last.run_id, "last_episode": last.episode}
-        known |= {"run_priority": chosen.run_priority, "priority": chosen.priority}
-        chosen = tx.conn.execute(offer.follow_up, known).one_or_none() or chosen
+        parameters |= {"last_run": last.run_id, "last_episode": last.episode}
+        parameters |= {"run_priority": chosen.run_priority, "priority": chosen.priority}
+        chosen = tx.conn.execute(candidates.follow_up, parameters).one_or_none() or chosen
     if tx.one_writer:
         return int(chosen.id)
-    # Others may be taking the same: lock it, or whichever is next and free.
+    # Another transaction may be leasing the same query: lock it, or the next one that is free.
     locked = tx.conn.execute(_LOCK_ONE, {"query": chosen.id}).one_or_none()
     if locked is None:
-        locked = tx.conn.execute(offer.unlocked, known).one_or_none()
+        locked = tx.conn.execute(candidates.unlocked, parameters).one_or_none()
     return None if locked is None else int(locked.id)
 
 
-def _is_enough(tx: Tx, offer: Offer, known: dict[str, Any], n_others: int) -> bool:
-    """Return whether there is a query for everybody else at work, and one more."""
-    return len(tx.conn.execute(offer.offered.limit(n_others + 1), known).all()) > n_others
+def _leaves_enough(tx: Tx, candidates: Candidates, parameters: dict[str, Any], n_others: int) -> bool:
+    """Return whether there is a query for every other annotator at work, and one more."""
+    return len(tx.conn.execute(candidates.every.limit(n_others + 1), parameters).all()) > n_others
 
 
-def _offer(tx: Tx, taker: Taker, shared: bool) -> Offer:
-    """Return what a taker may have; `shared` if others are at work."""
-    if taker.defer == 0:
-        return _plain_offer(taker.kinds, taker.run is not None, shared)
-    others = presence.who_would_take(tx, taker.presence_seconds)
-    old = queries.c.created_at <= tx.now - taker.defer
-    return Offer.among(_offered(taker.kinds, taker.run is not None, shared).where(or_(old, not_(others))))
+def _candidates(tx: Tx, request: LeaseRequest, shared: bool) -> Candidates:
+    """Return the queries that an annotator may get; `shared` says that others are at work."""
+    if request.defer == 0:
+        return _without_deferring(request.kinds, request.run is not None, shared)
+    others = presence.somebody_would_take(tx, request.presence_seconds)
+    old = queries.c.created_at <= tx.now - request.defer
+    return Candidates.among(_offered(request.kinds, request.run is not None, shared).where(or_(old, not_(others))))
 
 
 @lru_cache(maxsize=256)
-def _plain_offer(kinds: Kinds | None, one_run: bool, shared: bool) -> Offer:
-    return Offer.among(_offered(kinds, one_run, shared))
+def _without_deferring(kinds: Kinds | None, one_run: bool, shared: bool) -> Candidates:
+    return Candidates.among(_offered(kinds, one_run, shared))
 
 
-def _kept_for_another() -> ColumnElement[bool]:
-    """Return the condition that a query is new, and was asked after an answer of somebody else who is at work."""
+def _reserved_for_another() -> ColumnElement[bool]:
+    """Return the condition that a query is a new follow-up of another annotator who is at work."""
     other = exists().where(
         present.c.user_id == queries.c.follows_user_id,
         present.c.user_id != bindparam("user"),
@@ -134,7 +110,7 @@ def _kept_for_another() -> ColumnElement[bool]:
 
 
 def _offered(kinds: Kinds | None, one_run: bool, shared: bool) -> Select[Any]:
-    """Return the open queries an annotator may have, best first."""
+    """Return the open queries that an annotator may get, best first."""
     skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == bindparam("user"))
     running = exists().where(runs.c.id == queries.c.run_id, runs.c.state == "running")
     offered = (
@@ -143,7 +119,7 @@ def _offered(kinds: Kinds | None, one_run: bool, shared: bool) -> Select[Any]:
         .order_by(queries.c.run_priority.desc(), queries.c.priority.desc(), queries.c.id)
     )
     if shared:
-        offered = offered.where(~_kept_for_another())
+        offered = offered.where(~_reserved_for_another())
     if kinds is not None:
         offered = offered.where(queries.c.kind.in_(kinds))
     if one_run:

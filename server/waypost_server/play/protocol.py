@@ -1,4 +1,4 @@
-"""Playing a demonstration: who may, and what may be said on the play socket."""
+"""The protocol of the play socket: who may play or offer a demonstration, and which messages are accepted."""
 
 import time
 from collections.abc import Callable
@@ -10,14 +10,14 @@ from pydantic_core import from_json
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.db.engine import Tx
-from waypost_server.leases import service as leases
+from waypost_server.db.transaction import Tx
+from waypost_server.leases.assignments import check_live, find
 from waypost_server.queries import checks
 from waypost_server.queries import service as queries
 from waypost_server.runs import service as runs
 
 MESSAGE_BYTES = 4 * 2**20  # the largest message: a demonstration with all its states, as in a query
-MESSAGES_PER_SECOND = 60  # a held key repeats at half of that
+MESSAGES_PER_SECOND = 60  # a key that is held down repeats about 30 times a second
 BURST = 240
 
 HELLO: TypeAdapter[wire.PlayHello] = TypeAdapter(wire.PlayHello)
@@ -29,17 +29,17 @@ M = TypeVar("M")
 
 @dataclass(frozen=True)
 class Demonstration:
-    """What moves are checked against."""
+    """The query and the names that moves are checked against."""
 
     ask: wire.AskHierDemo
     names: checks.Names
 
 
 def read(schema: TypeAdapter[M], text: str) -> M:
-    """Return a message.
+    """Return a parsed message.
 
     Raises:
-        Unprocessable: it is not JSON, or not such a message.
+        Unprocessable: the text is not JSON, or not a message of this kind.
     """
     try:
         return schema.validate_python(from_json(text, allow_inf_nan=False))
@@ -50,42 +50,42 @@ def read(schema: TypeAdapter[M], text: str) -> M:
         raise errors.Unprocessable(["message"], f"is not JSON: {error}") from None
 
 
-def taken(tx: Tx, query: int, user: int, hello: wire.PlayTake) -> Demonstration:
-    """Return the demonstration that an annotator holds.
+def check_taken(tx: Tx, query: int, user: int, hello: wire.PlayTake) -> Demonstration:
+    """Return the demonstration that an annotator has leased.
 
     Raises:
-        NotFound, NotYours, WrongToken: the caller does not hold it.
-        LeaseExpired, LeaseEnded, QueryCancelled: not any more.
-        NotPlayable: it is another kind of query.
+        NotFound, NotYours, WrongToken: the caller does not have this assignment.
+        LeaseExpired, LeaseEnded, QueryCancelled: the lease is over.
+        NotPlayable: the query is of another kind.
     """
-    held = leases.find(tx, hello.assignment, user, hello.token)
-    if held.query != query:
+    assignment = find(tx, hello.assignment, user, hello.token)
+    if assignment.query != query:
         raise errors.NotFound(f"Assignment {hello.assignment} is not of query {query}.")
-    leases.refuse_ended(held, tx.now)
+    check_live(assignment, tx.now)
     return _demonstration(tx, queries.view(tx, query))
 
 
-def offered(tx: Tx, query: int, user: int, is_admin: bool) -> None:
-    """See to it that a learner may offer the environment of a query.
+def check_offer(tx: Tx, query: int, user: int, is_admin: bool) -> None:
+    """Refuse a learner who may not offer the environment of a query.
 
     Raises:
         NotFound: there is no such query.
-        Forbidden: it is another learner's run.
-        NotPlayable: it is not an open demonstration.
+        Forbidden: the run belongs to another learner.
+        NotPlayable: the query is not an open demonstration.
     """
     found = queries.view(tx, query)
     if runs.find(tx, found.run).user_id != user and not is_admin:
-        raise errors.Forbidden(f"Query {query} is of another learner's run.")
+        raise errors.Forbidden(f"Query {query} belongs to another learner's run.")
     _demonstration(tx, found)
     if found.state in queries.CLOSED:
         raise errors.NotPlayable(f"Query {query} is {found.state}.")
 
 
 def check_moves(demonstration: Demonstration, moves: wire.PlayMoves) -> None:
-    """Let only such moves pass as could be an answer; and none at all, before the first.
+    """Refuse moves that could not be an answer. No moves at all are accepted too.
 
     Raises:
-        Unprocessable: a name that the run does not have, or more than the horizons allow.
+        Unprocessable: a name that the run does not have, or more moves than the horizons allow.
     """
     if moves.segments:
         answer = wire.HierDemoAnswer(kind="hier_demo", segments=moves.segments)
@@ -98,18 +98,18 @@ def _demonstration(tx: Tx, query: wire.Query) -> Demonstration:
     return Demonstration(query.ask, checks.Names.of(runs.view(tx, query.run).vocabulary))
 
 
-class Pace:
-    """Counts messages: a burst now and then, but no more than so many a second in the long run."""
+class RateLimit:
+    """Limits messages to `MESSAGES_PER_SECOND` in the long run, with bursts of up to `BURST`."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
         self._left, self._at = float(BURST), clock()
 
     def count(self) -> None:
-        """Count one.
+        """Count one message.
 
         Raises:
-            TooManyMessages: it is one too many.
+            TooManyMessages: the limit is exceeded.
         """
         now = self._clock()
         self._left = min(BURST, self._left + (now - self._at) * MESSAGES_PER_SECOND) - 1

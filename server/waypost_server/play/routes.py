@@ -1,7 +1,7 @@
-"""The play socket: on one end the annotator who holds a demonstration, on the other the learner, with its environment.
+"""The play socket connects the annotator of a demonstration with the learner's environment.
 
-Whoever is refused, even before the first message, finds the socket closed with 4000 + the status and words that say
-why: of a refused handshake a browser tells its page nothing.
+Every refusal closes the socket with the code 4000 + its status and a reason, even before the first message, because a
+browser does not tell a page why a handshake was refused.
 """
 
 import asyncio
@@ -11,28 +11,30 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth import permissions
+from waypost_server.auth.lookup import Cached
+from waypost_server.auth.permissions import Caller, authenticate_socket, check_role
+from waypost_server.auth.roles import ANNOTATORS, LEARNERS
 from waypost_server.http.context import Context, Ctx
+from waypost_server.http.parameters import RowPath
 from waypost_server.play import protocol
-from waypost_server.play.relay import close
-from waypost_server.queries import service as queries
+from waypost_server.play.relay import Relay, Sockets, close
 
 router = APIRouter()
 
-RECHECK_SECONDS = 5.0  # how old the knowledge may be that a lease is still live
+RECHECK_SECONDS = 5.0  # how often it is checked again that the lease is live
 
 
 @router.websocket("/queries/{query}/play")
-async def play(socket: WebSocket, query: queries.QueryId, context: Ctx) -> None:
-    """Relay between the page and the learner's environment until one leaves."""
+async def play(socket: WebSocket, query: RowPath, context: Ctx, cache: Cached, relay: Sockets) -> None:
+    """Relay messages between the web app and the learner's environment until one disconnects."""
     await socket.accept()
     try:
-        caller = await permissions.on_socket(socket, context)
+        caller = await authenticate_socket(socket, cache)
         match await _hello(socket, context.settings.body_seconds):
             case wire.PlayTake() as hello:
-                await _annotate(socket, query, context, caller, hello)
+                await _annotate(socket, query, context, relay, caller, hello)
             case wire.PlayOffer():
-                await _offer(socket, query, context, caller)
+                await _offer(socket, query, context, relay, caller)
     except WebSocketDisconnect:
         pass
     except errors.Refusal as refusal:
@@ -44,39 +46,39 @@ async def _hello(socket: WebSocket, seconds: float) -> wire.PlayHello:
         async with asyncio.timeout(seconds):
             return protocol.read(protocol.HELLO, await _receive(socket))
     except TimeoutError:
-        raise errors.BodyTooSlow(f"Nothing was said for {seconds:g} seconds.") from None
+        raise errors.BodyTooSlow(f"There was no message for {seconds:g} seconds.") from None
 
 
 async def _annotate(
-    socket: WebSocket, query: int, context: Context, caller: permissions.Caller, hello: wire.PlayTake
+    socket: WebSocket, query: int, context: Context, relay: Relay, caller: Caller, hello: wire.PlayTake
 ) -> None:
-    """Pass an annotator's moves on, for as long as it holds the query."""
-    permissions.refuse_role(caller, permissions.ANNOTATORS)
-    demonstration = await context.db.read(lambda tx: protocol.taken(tx, query, caller.user, hello))
-    checked_at, pace = time.monotonic(), protocol.Pace()
-    async with context.relay.seat(query, "annotator", socket):
+    """Forward an annotator's moves for as long as the lease is live."""
+    check_role(caller, ANNOTATORS)
+    demonstration = await context.db.read(lambda tx: protocol.check_taken(tx, query, caller.user, hello))
+    checked_at, limit = time.monotonic(), protocol.RateLimit()
+    async with relay.seat(query, "annotator", socket):
         while True:
             text = await _receive(socket)
-            pace.count()
+            limit.count()
             protocol.check_moves(demonstration, protocol.read(protocol.MOVES, text))
             if time.monotonic() > checked_at + RECHECK_SECONDS:
-                await context.db.read(lambda tx: protocol.taken(tx, query, caller.user, hello))
+                await context.db.read(lambda tx: protocol.check_taken(tx, query, caller.user, hello))
                 checked_at = time.monotonic()
-            await context.relay.forward(query, "learner", text)
+            await relay.forward(query, "learner", text)
 
 
-async def _offer(socket: WebSocket, query: int, context: Context, caller: permissions.Caller) -> None:
-    """Pass on what a learner's environment makes of the moves."""
-    permissions.refuse_role(caller, permissions.LEARNERS)
+async def _offer(socket: WebSocket, query: int, context: Context, relay: Relay, caller: Caller) -> None:
+    """Forward the states that a learner's environment returns."""
+    check_role(caller, LEARNERS)
     is_admin = caller.role == "admin"
-    await context.db.read(lambda tx: protocol.offered(tx, query, caller.user, is_admin))
-    pace = protocol.Pace()
-    async with context.relay.seat(query, "learner", socket):
+    await context.db.read(lambda tx: protocol.check_offer(tx, query, caller.user, is_admin))
+    limit = protocol.RateLimit()
+    async with relay.seat(query, "learner", socket):
         while True:
             text = await _receive(socket)
-            pace.count()
+            limit.count()
             protocol.read(protocol.STATES, text)
-            await context.relay.forward(query, "annotator", text)
+            await relay.forward(query, "annotator", text)
 
 
 async def _receive(socket: WebSocket) -> str:

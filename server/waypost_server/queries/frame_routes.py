@@ -1,4 +1,4 @@
-"""Frames: a learner uploads pictures of states, the page shows them."""
+"""A learner uploads pictures of states; the web app shows them."""
 
 from typing import Annotated
 
@@ -23,14 +23,14 @@ HEADERS = {
 
 @router.put("", status_code=204, operation_id="putFrames")
 async def put_frames(body: wire.FrameUpload, context: Ctx, _: LearnerCalls) -> None:
-    """Upload pictures of states, all of them or none; those uploaded before stay as they are."""
+    """Upload pictures of states: all of them or none. Pictures that were uploaded before do not change."""
     files = frames.decode(body, context.settings.max_frame_bytes)
     await context.db.write(lambda tx: frames.store(tx, files))
 
 
 @router.post("/missing", operation_id="missingFrames")
 async def missing_frames(body: wire.FrameHashes, context: Ctx, _: LearnerCalls) -> wire.FrameHashes:
-    """Return which of these frames have to be uploaded."""
+    """Return the hashes of frames that are not stored yet."""
     return await context.db.read(lambda tx: wire.FrameHashes(hashes=frames.missing(tx, body.hashes)))
 
 
@@ -41,6 +41,6 @@ async def missing_frames(body: wire.FrameHashes, context: Ctx, _: LearnerCalls) 
     responses=refusals(errors.NotFound) | {200: {"description": "The picture.", "content": {"image/png": {}}}},
 )
 async def get_frame(frame: Hash, context: Ctx, _: AnyoneCalls) -> Response:
-    """Return a picture; what a hash names never changes."""
+    """Return a picture. The picture of a hash never changes."""
     png = await context.db.read(lambda tx: frames.find(tx, frame))
     return Response(png, media_type="image/png", headers=HEADERS)

@@ -1,4 +1,4 @@
-"""Frames: pictures of states, for domains that the page has no renderer for. A frame goes by the SHA-256 of its PNG."""
+"""Frames: pictures of states, for domains without a renderer. A frame is identified by the SHA-256 of its PNG."""
 
 import base64
 import binascii
@@ -9,8 +9,8 @@ from sqlalchemy import select
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.db.engine import Tx
 from waypost_server.db.tables import frames
+from waypost_server.db.transaction import Tx
 from waypost_server.errors import Unprocessable
 
 MOST_PIXELS = 4_096  # on a side
@@ -23,7 +23,7 @@ def decode(upload: wire.FrameUpload, most_bytes: int) -> dict[str, bytes]:
     """Return the files of an upload by their hashes.
 
     Raises:
-        Unprocessable: one that is no PNG, is too large, or goes by the hash of another.
+        Unprocessable: a file is not a PNG, is too large, or does not match its hash.
     """
     return {frame.hash: _decode(frame, place, most_bytes) for place, frame in enumerate(upload.frames)}
 
@@ -35,9 +35,9 @@ def _decode(frame: wire.Frame, place: int, most_bytes: int) -> bytes:
     except binascii.Error as error:
         raise Unprocessable([*at, "png"], f"is not base64: {error}") from None
     if len(png) > most_bytes:
-        raise Unprocessable([*at, "png"], f"has {len(png)} bytes; a frame may have {most_bytes}")
+        raise Unprocessable([*at, "png"], f"has {len(png)} bytes; a frame may have at most {most_bytes}")
     if not png.startswith(_SIGNATURE) or not png.endswith(_END):
-        raise Unprocessable([*at, "png"], "is no PNG")
+        raise Unprocessable([*at, "png"], "is not a PNG")
     width, height = int.from_bytes(png[16:20]), int.from_bytes(png[20:24])
     if not (1 <= width <= MOST_PIXELS and 1 <= height <= MOST_PIXELS):
         raise Unprocessable([*at, "png"], f"is {width} x {height} pixels; at most {MOST_PIXELS} on a side")
@@ -47,7 +47,7 @@ def _decode(frame: wire.Frame, place: int, most_bytes: int) -> bytes:
 
 
 def missing(tx: Tx, hashes: Iterable[str]) -> list[str]:
-    """Return those of the hashes that no stored frame has, each once, in the order given."""
+    """Return the hashes that no stored frame has, each once, in the given order."""
     wanted = list(dict.fromkeys(hashes))
     stored: set[str] = set()
     for first in range(0, len(wanted), _AT_ONCE):
@@ -57,17 +57,19 @@ def missing(tx: Tx, hashes: Iterable[str]) -> list[str]:
 
 
 def store(tx: Tx, files: dict[str, bytes]) -> None:
-    """Keep frames; those that are there stay as they are."""
+    """Store frames. Frames that are already stored do not change."""
     rows = [{"hash": one, "png": files[one], "created_at": tx.now} for one in missing(tx, files)]
     if rows:
-        tx.conn.execute(tx.upsert(frames).on_conflict_do_nothing(), rows)  # another learner may be storing the same
+        tx.conn.execute(
+            tx.upsert(frames).on_conflict_do_nothing(), rows
+        )  # another learner may be storing the same frame
 
 
 def find(tx: Tx, frame: str) -> bytes:
     """Return a frame's PNG.
 
     Raises:
-        NotFound: if it is not stored.
+        NotFound: it is not stored.
     """
     png = tx.conn.execute(select(frames.c.png).where(frames.c.hash == frame)).scalar_one_or_none()
     if png is None:
@@ -76,7 +78,7 @@ def find(tx: Tx, frame: str) -> bytes:
 
 
 def check_stored(tx: Tx, asks: Sequence[wire.Ask]) -> None:
-    """Refuse queries that show a frame nobody has uploaded.
+    """Refuse queries with a frame that was not uploaded.
 
     Raises:
         Unprocessable: naming the first such frame.

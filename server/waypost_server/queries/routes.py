@@ -1,4 +1,4 @@
-"""Queries: a learner asks, waits for answers, and marks those it has trained on."""
+"""A learner asks queries, waits for answers, and marks answers as used."""
 
 from typing import Annotated
 
@@ -7,17 +7,15 @@ from fastapi import APIRouter, Query, Request
 from waypost import wire
 from waypost_server import errors
 from waypost_server.auth.permissions import AnyoneCalls, LearnerCalls
-from waypost_server.http import polling
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
+from waypost_server.http.parameters import RowPath, RowQuery, Seconds
+from waypost_server.http.polling import poll
 from waypost_server.http.problems import refusals
 from waypost_server.queries import service as queries
 from waypost_server.runs import service as runs
 
 router = APIRouter(tags=["queries"], route_class=JsonRoute)
-
-RowId = Annotated[int, Query(ge=0, le=2**63 - 1)]
-Seconds = Annotated[float, Query(ge=0, le=60, allow_inf_nan=False, description="Wait so long for a change, seconds.")]
 
 
 @router.post(
@@ -28,7 +26,7 @@ Seconds = Annotated[float, Query(ge=0, le=60, allow_inf_nan=False, description="
     ),
 )
 async def ask(run: str, body: wire.AskList, context: Ctx, _: LearnerCalls) -> wire.Asked:
-    """Ask the expert: all of the queries or none. A query asked before is returned with its answer."""
+    """Ask the expert: all of the queries or none. A query that was asked before is returned with its answer."""
     limit = context.settings.max_open_queries
     contents = [queries.Content.of(one) for one in body.queries]
     return await context.db.write(lambda tx: queries.ask(tx, run, body, contents, limit))
@@ -41,8 +39,8 @@ async def list_queries(
     _: AnyoneCalls,
     state: wire.QueryState | None = None,
     kind: wire.Kind | None = None,
-    episode: RowId | None = None,
-    before: RowId | None = None,
+    episode: RowQuery | None = None,
+    before: RowQuery | None = None,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
 ) -> wire.QueryList:
     """List a run's queries, newest first."""
@@ -51,13 +49,16 @@ async def list_queries(
 
 
 @router.get("/queries/{query}", operation_id="getQuery", responses=refusals(errors.NotFound))
-async def get_query(
-    query: queries.QueryId, request: Request, context: Ctx, _: AnyoneCalls, wait: Seconds = 0
-) -> wire.Query:
-    """Return a query; with `wait`, as soon as it is answered or cancelled."""
+async def get_query(query: RowPath, request: Request, context: Ctx, _: AnyoneCalls, wait: Seconds = 0) -> wire.Query:
+    """Return a query; with `wait`, return as soon as it is answered or cancelled."""
     topic = queries.topic(query)
-    return await polling.until(
-        context, request, topic, wait, lambda tx: queries.view(tx, query), lambda found: found.state in queries.CLOSED
+    return await poll(
+        context,
+        request,
+        topic,
+        wait,
+        lambda: context.db.read(lambda tx: queries.view(tx, query)),
+        lambda found: found.state in queries.CLOSED,
     )
 
 
@@ -67,22 +68,22 @@ async def list_answers(
     request: Request,
     context: Ctx,
     _: AnyoneCalls,
-    after: RowId = 0,
+    after: RowQuery = 0,
     wait: Seconds = 0,
     limit: Annotated[int, Query(ge=1, le=500)] = 100,
 ) -> wire.AnswerPage:
-    """Return the queries answered after a cursor, in the order of the answers; with `wait`, as soon as there is one."""
-    return await polling.until(
+    """Return the queries answered after a cursor, in the order of their answers; with `wait`, wait for the first."""
+    return await poll(
         context,
         request,
         runs.answers_topic(run),
         wait,
-        lambda tx: queries.answered_after(tx, run, after, limit),
+        lambda: context.db.read(lambda tx: queries.answered_after(tx, run, after, limit)),
         lambda page: bool(page.queries),
     )
 
 
 @router.post("/queries/{query}/use", operation_id="useAnswer", responses=refusals(errors.NotFound, errors.NotAnswered))
-async def use_answer(query: queries.QueryId, context: Ctx, _: LearnerCalls) -> wire.Query:
-    """Mark the answer as used: from now on it can be retracted no more."""
+async def use_answer(query: RowPath, context: Ctx, _: LearnerCalls) -> wire.Query:
+    """Mark the answer as used. From then on it can no longer be retracted."""
     return await context.db.write(lambda tx: queries.use(tx, query))

@@ -1,10 +1,9 @@
-"""Queries: asking, seeing and using. A query is known by (run, episode, ordinal) and its content."""
+"""Queries: asked, read and used. (run, episode, ordinal) identifies a query and makes asking idempotent."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
-from fastapi import Path
 from pydantic import TypeAdapter
 from sqlalchemy import Row, Select, and_, bindparam, func, insert, select, tuple_, update
 
@@ -13,14 +12,12 @@ from waypost import wire
 from waypost.prices import to_units
 from waypost_server import errors
 from waypost_server.db import canonical, wakeups
-from waypost_server.db.engine import Tx
 from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
 from waypost_server.db.tables import runs as run_table
+from waypost_server.db.transaction import Tx
 from waypost_server.queries import checks, frames
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
-
-QueryId = Annotated[int, Path(ge=1, le=2**63 - 1)]
 
 CLOSED = frozenset({"answered", "cancelled"})
 ASK: TypeAdapter[wire.Ask] = TypeAdapter(wire.Ask)
@@ -65,7 +62,7 @@ class Filter:
 
 @dataclass(frozen=True)
 class Content:
-    """What is asked, as it is stored and compared."""
+    """The content of a query, as it is stored and compared."""
 
     ask: wire.Ask
     text: str
@@ -73,7 +70,7 @@ class Content:
 
     @classmethod
     def of(cls, ask: wire.Ask) -> "Content":
-        """Return the canonical content of a query; its pictures are kept, but are not what is asked."""
+        """Return the canonical content of a query. Frames are stored, but they are not compared."""
         content = ask.model_dump(mode="json")
         text = canonical.text(content)
         for segment in [*content.get("segments", []), *content["context"]]:
@@ -82,17 +79,17 @@ class Content:
 
     @property
     def key(self) -> tuple[int, int]:
-        """What names it within its run."""
+        """The key of the query within its run."""
         return (self.ask.episode, self.ask.ordinal)
 
 
 def topic(query: int) -> str:
-    """Return what a change of a query wakes."""
+    """Return the topic that a change of a query wakes."""
     return f"query:{query}"
 
 
 def of_row(row: Row[Any]) -> wire.Query:
-    """Return a row of `QUERIES` as it goes over the wire."""
+    """Return the message for a row of `QUERIES`."""
     return wire.Query(
         id=row.id,
         run=row.shown_run,
@@ -111,7 +108,11 @@ def of_row(row: Row[Any]) -> wire.Query:
 
 
 def view(tx: Tx, query: int) -> wire.Query:
-    """Return a query."""
+    """Return a query.
+
+    Raises:
+        NotFound: there is no such query.
+    """
     row = tx.conn.execute(_VIEW, {"query": query}).one_or_none()
     if row is None:
         raise errors.NotFound(f"There is no query {query}.")
@@ -134,7 +135,7 @@ def newest(tx: Tx, run: str, chosen: Filter) -> wire.QueryList:
 
 
 def answered_after(tx: Tx, run: str, cursor: int, limit: int) -> wire.AnswerPage:
-    """Return the queries whose answers came after a cursor, in the order of the answers."""
+    """Return the queries answered after a cursor, in the order of their answers."""
     runs.find(tx, run)
     statement = (
         QUERIES.where(queries.c.run_id == run, answers.c.run_id == run, answers.c.id > cursor)
@@ -147,7 +148,13 @@ def answered_after(tx: Tx, run: str, cursor: int, limit: int) -> wire.AnswerPage
 
 
 def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_open: int) -> wire.Asked:
-    """Ask all of the queries or none; those asked before are returned as they stand."""
+    """Ask all of the queries or none. Queries that were asked before are returned in their present state.
+
+    Raises:
+        DifferentContent: a key was used before with other content.
+        RunFinished, TooManyQueries, BudgetExhausted: the run cannot ask new queries.
+        Unprocessable: a query makes no sense in this run.
+    """
     run_row = runs.lock(tx, run)
     known = _known(tx, run, contents)
     new = _new(contents, known)
@@ -175,7 +182,7 @@ def _known(tx: Tx, run: str, contents: Sequence[Content]) -> dict[tuple[int, int
 
 
 def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, str]]) -> list[Content]:
-    """Return what was not asked before; refuse a key that came with other content."""
+    """Return the queries that were not asked before; refuse a key that was used before with other content."""
     new: dict[tuple[int, int], Content] = {}
     for place, one in enumerate(contents):
         earlier = known[one.key][1] if one.key in known else None
@@ -185,7 +192,7 @@ def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, st
             new[one.key] = one
         elif earlier != one.digest:
             raise errors.DifferentContent(
-                f"queries.{place}: episode {one.ask.episode} has asked its query {one.ask.ordinal} before, "
+                f"queries.{place}: episode {one.ask.episode} has already asked query {one.ask.ordinal} "
                 "with other content."
             )
     return list(new.values())
@@ -193,7 +200,7 @@ def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, st
 
 def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Content], most_open: int) -> None:
     if run_row.state == "finished":
-        raise errors.RunFinished("The run is finished; it asks nothing more.")
+        raise errors.RunFinished("The run is finished, so it cannot ask new queries.")
     names = checks.Names.of(wire.Vocabulary.model_validate_json(run_row.vocabulary))
     for one in new:
         checks.check_ask(one.ask, names, ["body", "queries", body.queries.index(one.ask)])
@@ -202,12 +209,12 @@ def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Cont
     n_open = tx.conn.execute(waiting).scalar_one()
     if n_open + len(new) > most_open:
         raise errors.TooManyQueries(
-            f"The run has {n_open} open queries, and may have {most_open}; wait for answers.", retry_after=1
+            f"The run has {n_open} open queries and may have at most {most_open}; wait for answers.", retry_after=1
         )
 
 
 def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, reserves: Sequence[int]) -> list[int]:
-    """Store new queries and their events, many at once; returns their ids in the same order."""
+    """Insert new queries and their events; return the ids in the same order."""
     answered_last = _answered_last(tx, run_row.id, {one.ask.episode for one in new})
     rows = [
         {
@@ -236,7 +243,7 @@ def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, re
 
 
 def _answered_last(tx: Tx, run: str, episodes: Collection[int]) -> dict[int, int]:
-    """Return who answered each of these episodes last, if anybody did."""
+    """Return the user who gave the last answer in each of these episodes, if there is one."""
     newest = (
         select(func.max(queries.c.answer_id))
         .where(queries.c.run_id == run, queries.c.state == "answered", queries.c.episode.in_(episodes))
@@ -251,10 +258,10 @@ def _answered_last(tx: Tx, run: str, episodes: Collection[int]) -> dict[int, int
 
 
 def use(tx: Tx, query: int) -> wire.Query:
-    """Mark the answer as used, so that it can be retracted no more.
+    """Mark the answer as used, so that it can no longer be retracted.
 
     Raises:
-        NotAnswered: if there is no answer, for instance because it was retracted meanwhile.
+        NotAnswered: there is no answer, for example because it was retracted in the meantime.
     """
     found = view(tx, query)
     runs.lock(tx, found.run)

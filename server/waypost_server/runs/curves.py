@@ -1,4 +1,4 @@
-"""Curves and costs of a run: success by episode and by cost, out of the reported episodes and the ledger alone."""
+"""Curves and costs of a run, computed from the reported episodes and the ledger alone."""
 
 from bisect import bisect_right
 from collections import defaultdict, deque
@@ -10,8 +10,8 @@ from sqlalchemy import func, select
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.engine import Tx
 from waypost_server.db.tables import episodes, ledger
+from waypost_server.db.transaction import Tx
 from waypost_server.runs import service as runs
 
 LEVELS = ("0.8", "0.9", "0.95", "0.99")
@@ -19,7 +19,7 @@ LEVELS = ("0.8", "0.9", "0.95", "0.99")
 
 @dataclass(frozen=True)
 class Spent:
-    """The ledger's sum for one kind of query in one episode; money in micro-units."""
+    """The ledger's sum for one kind of query in one episode; amounts are micro-units."""
 
     episode: int
     kind: wire.Kind
@@ -31,7 +31,7 @@ class Spent:
 
 
 def trailing(outcomes: Sequence[bool | None], window: int = runs.TRAILING) -> list[float | None]:
-    """Return the success rate over the last `window` test episodes at each episode; untested ones are left out."""
+    """Return the success rate over the last `window` test episodes at each episode. Untested episodes do not count."""
     recent: deque[bool] = deque(maxlen=window)
     rates: list[float | None] = []
     for outcome in outcomes:
@@ -62,7 +62,7 @@ def _ledger(tx: Tx, run: str) -> list[Spent]:
 
 
 def _tests(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:
-    """Return the reported episodes and what their tests brought."""
+    """Return the reported episodes and the results of their tests."""
     rows = tx.conn.execute(
         select(episodes.c.episode, episodes.c.test_success).where(episodes.c.run_id == run).order_by(episodes.c.episode)
     ).all()
@@ -70,13 +70,13 @@ def _tests(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:
 
 
 def _results(tx: Tx, run: str) -> list[wire.EpisodeResult]:
-    """Return the reported episodes with all that was reported of them."""
+    """Return the complete results of the reported episodes."""
     rows = tx.conn.execute(select(episodes.c.result).where(episodes.c.run_id == run).order_by(episodes.c.episode))
     return [wire.EpisodeResult.model_validate_json(row.result) for row in rows]
 
 
-def _cumulative(reported: Sequence[int], amounts: Iterable[tuple[int, float]]) -> list[float]:
-    """Return the running sum at each reported episode, of amounts in episode order."""
+def cumulative(reported: Sequence[int], amounts: Iterable[tuple[int, float]]) -> list[float]:
+    """Return the running sum of (episode, amount) pairs at each reported episode. The pairs are in episode order."""
     sums: list[float] = []
     pending = iter([*amounts, (2**63, 0)])
     episode, amount = next(pending)
@@ -90,7 +90,7 @@ def _cumulative(reported: Sequence[int], amounts: Iterable[tuple[int, float]]) -
 
 
 def curves(tx: Tx, run: str, after: int = -1) -> wire.Curves:
-    """Return success and cumulative cost, a row per reported episode past one."""
+    """Return success and cumulative cost, one row per reported episode after `after`."""
     runs.find(tx, run)
     results = _results(tx, run)
     reported, tests = [result.episode for result in results], [result.test_success for result in results]
@@ -103,11 +103,11 @@ def curves(tx: Tx, run: str, after: int = -1) -> wire.Curves:
         episode=reported[first:],
         success_rate=trailing(tests)[first:],
         test_success=tests[first:],
-        cost=_units(_cumulative(reported, ((entry.episode, entry.units) for entry in spent)))[first:],
-        lo_cost=_units(_cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent)))[first:],
-        seconds=_cumulative(reported, ((entry.episode, entry.seconds) for entry in spent))[first:],
-        active_seconds=_cumulative(reported, ((entry.episode, entry.active_seconds) for entry in spent))[first:],
-        cost_by_kind={kind: _units(_cumulative(reported, by_kind[kind]))[first:] for kind in wire.KINDS},
+        cost=_units(cumulative(reported, ((entry.episode, entry.units) for entry in spent)))[first:],
+        lo_cost=_units(cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent)))[first:],
+        seconds=cumulative(reported, ((entry.episode, entry.seconds) for entry in spent))[first:],
+        active_seconds=cumulative(reported, ((entry.episode, entry.active_seconds) for entry in spent))[first:],
+        cost_by_kind={kind: _units(cumulative(reported, by_kind[kind]))[first:] for kind in wire.KINDS},
         hi_labels=[result.hi_labels for result in results[first:]],
         lo_samples=list(accumulate(result.train_steps for result in results))[first:],
         learner_seconds=list(accumulate(result.seconds for result in results))[first:],
@@ -125,7 +125,7 @@ def costs(tx: Tx, run: str) -> wire.Costs:
     spent = _ledger(tx, run)
     by_kind = {kind: _sum([entry for entry in spent if entry.kind == kind]) for kind in wire.KINDS}
     total = _sum(spent)
-    cost = _units(_cumulative(reported, ((entry.episode, entry.units) for entry in spent)))
+    cost = _units(cumulative(reported, ((entry.episode, entry.units) for entry in spent)))
     return wire.Costs(
         total=total.units,
         lo_total=total.lo_units,
@@ -134,7 +134,7 @@ def costs(tx: Tx, run: str) -> wire.Costs:
         by_kind=by_kind,
         reserved=to_units(row.reserved),
         budget=None if row.budget is None else to_units(row.budget),
-        first_at={level: _first_at(float(level), reported, tests, cost) for level in LEVELS},
+        first_at={level: first_at(float(level), reported, tests, cost) for level in LEVELS},
     )
 
 
@@ -148,10 +148,10 @@ def _sum(spent: Sequence[Spent]) -> wire.CostOfKind:
     )
 
 
-def _first_at(
+def first_at(
     level: float, reported: Sequence[int], tests: Sequence[bool | None], cost: Sequence[float]
 ) -> wire.Milestone | None:
-    """Return where the rate over a full window of tests first reached a level."""
+    """Return the first episode where the rate over a full window of tests reached a level."""
     tested = accumulate(int(outcome is not None) for outcome in tests)
     for episode, units, n_tests, rate in zip(reported, cost, tested, trailing(tests), strict=True):
         if n_tests >= runs.TRAILING and rate is not None and rate >= level:

@@ -1,4 +1,4 @@
-"""Episodes: what each brought, as the learner reports it."""
+"""Results of episodes, as the learner reports them."""
 
 from collections.abc import Sequence
 
@@ -7,18 +7,18 @@ from sqlalchemy import insert, select
 from waypost import wire
 from waypost_server import errors
 from waypost_server.db import canonical
-from waypost_server.db.engine import Tx
 from waypost_server.db.tables import episodes
+from waypost_server.db.transaction import Tx
 from waypost_server.runs import events
 from waypost_server.runs import service as runs
 
 
 def report(tx: Tx, run: str, results: Sequence[wire.EpisodeResult]) -> wire.Run:
-    """Store results; the same result again changes nothing, nor does one that took another time.
+    """Store results. Reporting an episode again changes nothing, even if it took another time.
 
     Raises:
-        DifferentContent: if an episode was reported otherwise.
-        RunFinished: if a finished run reports something new.
+        DifferentContent: an episode was reported before with another result.
+        RunFinished: a finished run reports a new episode.
     """
     row = runs.lock(tx, run)
     numbers = [result.episode for result in results]
@@ -28,12 +28,12 @@ def report(tx: Tx, run: str, results: Sequence[wire.EpisodeResult]) -> wire.Run:
     known = {found.episode: wire.EpisodeResult.model_validate_json(found.result) for found in tx.conn.execute(stored)}
     for result in results:
         if result.episode in known:
-            # A learner that was killed goes through its last episodes again, in another time.
+            # A learner that was killed repeats its last episodes, which then take another time.
             if known[result.episode].model_copy(update={"seconds": result.seconds}) != result:
                 raise errors.DifferentContent(f"Episode {result.episode} was reported before, with another result.")
             continue
         if row.state == "finished":
-            raise errors.RunFinished("The run is finished; it reports nothing more.")
+            raise errors.RunFinished("The run is finished, so it cannot report new episodes.")
         known[result.episode] = result
         _insert(tx, run, result)
     return runs.view(tx, run)

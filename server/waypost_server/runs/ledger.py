@@ -1,4 +1,4 @@
-"""Money: whole micro-units inside, units on the wire, and the only code that changes a run's account."""
+"""The ledger and the accounts of runs. Only this module changes them. Amounts are whole micro-units."""
 
 from dataclasses import dataclass
 
@@ -6,15 +6,15 @@ from sqlalchemy import bindparam, insert, update
 
 from waypost.prices import MICRO, Cost, to_units
 from waypost_server import errors
-from waypost_server.db.engine import Tx
 from waypost_server.db.tables import ledger, runs
+from waypost_server.db.transaction import Tx
 
-CEILING = 10**12 * MICRO  # what a run without a budget may cost: sums stay well inside 64 bits
+CEILING = 10**12 * MICRO  # the budget of a run without one, so that sums stay well within 64 bits
 
 
 @dataclass(frozen=True)
 class Account:
-    """A run's account, its row locked until the end of the unit of work."""
+    """The account of a run whose row is locked until the end of the transaction."""
 
     run: str
     budget: int | None
@@ -23,13 +23,13 @@ class Account:
 
     @property
     def free(self) -> int:
-        """What may still be reserved."""
+        """The units that can still be reserved."""
         return (CEILING if self.budget is None else self.budget) - self.spent - self.reserved
 
 
 @dataclass(frozen=True)
 class Entry:
-    """What a line of the ledger is about."""
+    """The content of one entry of the ledger."""
 
     run: str
     query: int
@@ -50,38 +50,38 @@ _CHANGE = (
 
 
 def reserve(tx: Tx, account: Account, amount: int) -> None:
-    """Hold units for queries asked.
+    """Reserve units for new queries.
 
     Raises:
-        BudgetExhausted: if they do not fit what is left of the budget.
+        BudgetExhausted: the budget has too few units left.
     """
     if amount > account.free:
         raise errors.BudgetExhausted(
-            f"This needs {to_units(amount):g} units, and {to_units(account.free):g} of the run's budget are free "
+            f"This needs {to_units(amount):g} units, but only {to_units(account.free):g} of the run's budget are free "
             f"({to_units(account.spent):g} spent, {to_units(account.reserved):g} reserved)."
         )
     _change(tx, account.run, 0, amount)
 
 
 def release(tx: Tx, run: str, amount: int) -> None:
-    """Let go of units held for queries that will not be answered."""
+    """Release the units reserved for queries that will not be answered."""
     _change(tx, run, 0, -amount)
 
 
 def charge(tx: Tx, entry: Entry, reserved: int) -> None:
-    """Charge an answer and settle what was reserved for it."""
+    """Charge an answer and release the units reserved for it."""
     _write(tx, "charge", entry, 1)
     _change(tx, entry.run, entry.cost.units, -reserved)
 
 
 def refund(tx: Tx, entry: Entry, account: Account, reserved: int) -> None:
-    """Take the charge of an answer back and hold its query's reserve again.
+    """Refund an answer and reserve units for its query again.
 
     Raises:
-        BudgetExhausted: if the reserve no longer fits, the difference being spent elsewhere.
+        BudgetExhausted: the budget has too few units left to have the query answered again.
     """
     if reserved - entry.cost.units > account.free:
-        raise errors.BudgetExhausted("The run's budget has no room left to have this answered again.")
+        raise errors.BudgetExhausted("The run's budget has too few units left to have this query answered again.")
     _write(tx, "refund", entry, -1)
     _change(tx, entry.run, -entry.cost.units, reserved)
 

@@ -1,4 +1,4 @@
-"""Which runs a list shows: filtered, sorted and paged by the database."""
+"""The list of runs, filtered, sorted and paginated by the database."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -9,14 +9,14 @@ from sqlalchemy.sql.elements import ColumnElement
 from sqlalchemy.sql.functions import FunctionElement
 
 from waypost import wire
-from waypost_server.db.engine import Tx
 from waypost_server.db.tables import runs
+from waypost_server.db.transaction import Tx
 from waypost_server.runs.service import RUNS, of_row
 
 
 @dataclass(frozen=True)
 class Filter:
-    """Which runs, in which order, and which page of them."""
+    """The filter, the order and the page of a list of runs."""
 
     text: str = ""
     state: wire.RunState | None = None
@@ -28,7 +28,7 @@ class Filter:
 
 
 class domain(FunctionElement[str]):  # noqa: N801 - a SQL function
-    """The name of a run's domain, out of its vocabulary."""
+    """The name of a run's domain, read from its vocabulary."""
 
     inherit_cache = True
     type = String()
@@ -44,8 +44,8 @@ def _postgresql_domain(element: domain, compiler: Any, **options: Any) -> str:
     return f"(CAST({compiler.process(element.clauses, **options)} AS json) ->> 'domain')"
 
 
-def listed(tx: Tx, chosen: Filter) -> wire.RunList:
-    """Return a page of runs, and how many there are in all."""
+def list_runs(tx: Tx, chosen: Filter) -> wire.RunList:
+    """Return one page of runs, and the number of runs on all pages."""
     conditions = _conditions(chosen)
     total = tx.conn.execute(select(func.count()).select_from(runs).where(*conditions)).scalar_one()
     page = _sorted(RUNS.where(*conditions), chosen).limit(chosen.limit).offset(chosen.offset)
@@ -65,7 +65,7 @@ def _conditions(chosen: Filter) -> list[ColumnElement[bool]]:
 
 
 def _sorted(statement: Select[Any], chosen: Filter) -> Select[Any]:
-    """Sort by the chosen column, unknown values last; of equals, the newest comes first."""
+    """Sort by the chosen column, missing values last; among equal values, the newest run first."""
     columns = {
         "newest": runs.c.number,
         "name": func.lower(runs.c.name),

@@ -1,9 +1,8 @@
-"""Runs: create, list, change, report episodes, and read their curves, costs and events."""
+"""Runs: create, list and change them, report episodes, read curves and costs."""
 
 from typing import Annotated
 
-from fastapi import APIRouter, Header, Query, Request
-from fastapi.responses import StreamingResponse
+from fastapi import APIRouter, Query
 
 from waypost import wire
 from waypost_server import errors
@@ -11,7 +10,7 @@ from waypost_server.auth.permissions import AnyoneCalls, LearnerCalls
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.problems import refusals
-from waypost_server.runs import curves, episodes, events, listing
+from waypost_server.runs import curves, episodes, listing
 from waypost_server.runs import service as runs
 
 router = APIRouter(prefix="/runs", tags=["runs"], route_class=JsonRoute)
@@ -31,7 +30,7 @@ async def list_runs(
         str, Query(max_length=200, pattern=r"^[^\x00]*$", description="Words in the name, algorithm, domain or id.")
     ] = "",
     state: wire.RunState | None = None,
-    run: Annotated[list[str] | None, Query(max_length=100, description="Only these runs, by id.")] = None,
+    run: Annotated[list[str] | None, Query(max_length=100, description="Only the runs with these ids.")] = None,
     sort: wire.RunSort = "newest",
     descending: bool = True,
     offset: Annotated[int, Query(ge=0, le=2**31 - 1)] = 0,
@@ -39,12 +38,12 @@ async def list_runs(
 ) -> wire.RunList:
     """List runs, newest first unless sorted otherwise."""
     chosen = listing.Filter(text, state, tuple(run or ()), sort, descending, offset, limit)
-    return await context.db.read(lambda tx: listing.listed(tx, chosen))
+    return await context.db.read(lambda tx: listing.list_runs(tx, chosen))
 
 
 @router.get("/{run}", operation_id="getRun", responses=refusals(errors.NotFound))
 async def get_run(run: str, context: Ctx, _: AnyoneCalls) -> wire.Run:
-    """Return a run and where its money is."""
+    """Return a run with its account."""
     return await context.db.read(lambda tx: runs.view(tx, run))
 
 
@@ -52,7 +51,7 @@ async def get_run(run: str, context: Ctx, _: AnyoneCalls) -> wire.Run:
     "/{run}", operation_id="patchRun", responses=refusals(errors.NotFound, errors.RunFinished, errors.BudgetTooLow)
 )
 async def patch_run(run: str, body: wire.RunPatch, context: Ctx, _: LearnerCalls) -> wire.Run:
-    """Rename, pause, resume or finish a run, or set its budget or priority. Finishing cancels what is still open."""
+    """Rename, pause, resume or finish a run; set its budget or priority. Finishing a run cancels its open queries."""
     return await context.db.write(lambda tx: runs.patch(tx, run, body))
 
 
@@ -62,7 +61,7 @@ async def patch_run(run: str, body: wire.RunPatch, context: Ctx, _: LearnerCalls
     responses=refusals(errors.NotFound, errors.DifferentContent, errors.RunFinished),
 )
 async def report_episodes(run: str, body: wire.EpisodeList, context: Ctx, _: LearnerCalls) -> wire.Run:
-    """Report what episodes brought. Reporting the same again changes nothing."""
+    """Report the results of episodes. Reporting the same result again changes nothing."""
     return await context.db.write(lambda tx: episodes.report(tx, run, body.episodes))
 
 
@@ -71,7 +70,7 @@ async def get_curves(
     run: str,
     context: Ctx,
     _: AnyoneCalls,
-    after: Annotated[int, Query(ge=-1, le=2**31 - 1, description="Only the episodes past this one.")] = -1,
+    after: Annotated[int, Query(ge=-1, le=2**31 - 1, description="Only the episodes after this one.")] = -1,
 ) -> wire.Curves:
     """Return success and cumulative cost by episode."""
     return await context.db.read(lambda tx: curves.curves(tx, run, after))
@@ -81,33 +80,3 @@ async def get_curves(
 async def get_costs(run: str, context: Ctx, _: AnyoneCalls) -> wire.Costs:
     """Return the ledger's sums, by kind of query."""
     return await context.db.read(lambda tx: curves.costs(tx, run))
-
-
-@router.get(
-    "/{run}/events",
-    operation_id="streamEvents",
-    response_class=StreamingResponse,
-    responses=refusals(errors.NotFound)
-    | {
-        200: {
-            "model": wire.Event,
-            "description": "Server-sent events; each `data` is an Event.",
-            "content": {"text/event-stream": {}},
-        }
-    },
-)
-async def stream_events(
-    run: str,
-    request: Request,
-    context: Ctx,
-    _: AnyoneCalls,
-    after: Annotated[
-        int | None, Query(ge=0, le=2**63 - 1, description="Only events past this id; absent: only new ones.")
-    ] = None,
-    last_event_id: Annotated[str | None, Header(max_length=20)] = None,
-) -> StreamingResponse:
-    """Stream what happens in a run, from a cursor on."""
-    start = int(last_event_id) if last_event_id and last_event_id.isascii() and last_event_id.isdigit() else after
-    newest = await context.db.read(lambda tx: events.newest(tx, runs.find(tx, run).id))
-    cursor = newest if start is None else start
-    return StreamingResponse(events.stream(context, request, run, cursor), media_type="text/event-stream")

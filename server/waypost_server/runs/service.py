@@ -1,4 +1,4 @@
-"""Runs: one learner's training each, with its state and its account."""
+"""Runs: created, changed, finished. A run is one learner's training, with its state and its account."""
 
 import json
 import re
@@ -11,12 +11,12 @@ from waypost import wire
 from waypost.prices import to_micro, to_units
 from waypost_server import errors
 from waypost_server.db import canonical, wakeups
-from waypost_server.db.engine import Tx
 from waypost_server.db.tables import IS_LIVE, assignments, episodes, queries, runs
+from waypost_server.db.transaction import Tx
 from waypost_server.runs import events, ledger
 from waypost_server.runs.ledger import Account
 
-TRAILING = 100  # test episodes the success rate is taken over
+TRAILING = 100  # the success rate is over this many test episodes
 UNANSWERED = ("open", "leased")
 _ID = re.compile(r"[0-9a-f]{12}", re.ASCII)
 
@@ -46,12 +46,12 @@ RUNS: Select[Any] = select(
 
 
 def answers_topic(run: str) -> str:
-    """Return what a new answer in a run wakes."""
+    """Return the topic that a new answer in a run wakes."""
     return f"answers:{run}"
 
 
 def of_row(row: Row[Any]) -> wire.Run:
-    """Return a row of `RUNS` as it goes over the wire."""
+    """Return the message for a row of `RUNS`."""
     return wire.Run(
         id=row.id,
         name=row.name,
@@ -92,13 +92,13 @@ def find(tx: Tx, run: str) -> Row[Any]:
     """Return a run's row.
 
     Raises:
-        NotFound: if there is no such run.
+        NotFound: there is no such run.
     """
     return _one(tx, _FIND, run)
 
 
 def lock(tx: Tx, run: str) -> Row[Any]:
-    """Return a run's row, locked: its account, its answers and its events change one unit of work at a time."""
+    """Return a run's row, locked, so that its account, answers and events change in one transaction at a time."""
     return _one(tx, _LOCK, run)
 
 
@@ -108,16 +108,24 @@ def account(row: Row[Any]) -> Account:
 
 
 def view(tx: Tx, run: str) -> wire.Run:
-    """Return a run."""
+    """Return a run.
+
+    Raises:
+        NotFound: there is no such run.
+    """
     return of_row(_one(tx, _VIEW, run))
 
 
 def create(tx: Tx, wanted: wire.RunCreate, user: int) -> wire.Run:
-    """Create a run."""
+    """Create a run.
+
+    Raises:
+        Unprocessable: a subgoal or an action is named twice.
+    """
     for field in ("subgoals", "actions"):
         names = getattr(wanted.vocabulary, field)
         if len(set(names)) != len(names):
-            raise errors.Unprocessable(["body", "vocabulary", field], "names something twice")
+            raise errors.Unprocessable(["body", "vocabulary", field], "has the same name twice")
     run = secrets.token_hex(6)
     tx.conn.execute(
         insert(runs).values(
@@ -142,7 +150,13 @@ def create(tx: Tx, wanted: wire.RunCreate, user: int) -> wire.Run:
 
 
 def patch(tx: Tx, run: str, wanted: wire.RunPatch) -> wire.Run:
-    """Change a run; absent fields stay. An explicit null lifts the budget or clears the result."""
+    """Change a run. Absent fields change nothing; an explicit null removes the budget or the result.
+
+    Raises:
+        NotFound: there is no such run.
+        RunFinished: a finished run cannot be resumed.
+        BudgetTooLow: the budget is below what is spent and reserved.
+    """
     row = lock(tx, run)
     sent = wanted.model_fields_set
     changes: dict[str, Any] = {}
@@ -168,18 +182,18 @@ def patch(tx: Tx, run: str, wanted: wire.RunPatch) -> wire.Run:
 def _checked_budget(row: Row[Any], budget: float | None) -> int | None:
     if budget is None:
         return None
-    held = row.spent + row.reserved
-    if to_micro(budget) < held:
+    committed = row.spent + row.reserved
+    if to_micro(budget) < committed:
         raise errors.BudgetTooLow(
             f"{to_units(row.spent):g} units are spent and {to_units(row.reserved):g} reserved for open queries; "
-            f"the budget cannot be less than {to_units(held):g}. Finish the run to release what is reserved."
+            f"the budget cannot be less than {to_units(committed):g}. Finish the run to release what is reserved."
         )
     return to_micro(budget)
 
 
 def _new_state(tx: Tx, row: Row[Any], state: wire.RunState) -> dict[str, Any]:
     if row.state == "finished":
-        raise errors.RunFinished("A finished run stays finished; start a new one.")
+        raise errors.RunFinished("A finished run cannot be resumed; start a new run.")
     if state == "finished":
         _cancel_open(tx, row.id)
         _finish_shadow(tx, row.id)
@@ -189,7 +203,7 @@ def _new_state(tx: Tx, row: Row[Any], state: wire.RunState) -> dict[str, Any]:
 
 
 def _finish_shadow(tx: Tx, run: str) -> None:
-    """Let gold queries end with the run's own."""
+    """Finish the run's shadow too, and cancel its open gold queries."""
     row = tx.conn.execute(select(runs.c.id).where(runs.c.gold_of == run).with_for_update()).one_or_none()
     if row is not None:
         _cancel_open(tx, row.id)
@@ -197,7 +211,7 @@ def _finish_shadow(tx: Tx, run: str) -> None:
 
 
 def _cancel_open(tx: Tx, run: str) -> None:
-    """Cancel what is not answered and release what was reserved for it."""
+    """Cancel the queries without an answer and release the units reserved for them."""
     waiting = select(queries.c.id, queries.c.reserve).where(queries.c.run_id == run, queries.c.state.in_(UNANSWERED))
     rows = tx.conn.execute(waiting.with_for_update()).all()
     if not rows:

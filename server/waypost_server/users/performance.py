@@ -1,5 +1,6 @@
-"""Annotators' own numbers: how much, how fast, and how far right where it is known what is. Counted in SQL."""
+"""Annotators' performance: how much they answered, how fast, and their accuracy on gold queries. Counted in SQL."""
 
+import statistics
 from collections import defaultdict
 from collections.abc import Sequence
 from typing import Any
@@ -8,27 +9,55 @@ from sqlalchemy import Row, Select, and_, case, func, select
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.engine import Tx
-from waypost_server.db.tables import answers, probes, queries, users
-from waypost_server.users.service import DAY
+from waypost_server.db.tables import answers, gold_showings, queries, users
+from waypost_server.db.transaction import Tx
 
+DAY = 86_400.0
 WEEK_DAYS = 7
+RECENT_ANSWERS = 1_000  # the median time is taken over these
+
+
+def me(tx: Tx, user: int) -> wire.Me:
+    """Return a user and the totals of their answers."""
+    who = tx.conn.execute(select(users).where(users.c.id == user)).one()
+    counted = (
+        select(answers).join(queries, queries.c.answer_id == answers.c.id).where(answers.c.user_id == user).subquery()
+    )
+    total = tx.conn.execute(
+        select(
+            func.count(),
+            func.coalesce(func.sum(counted.c.units), 0),
+            func.count().filter(counted.c.created_at >= _midnight(tx)),
+        ).select_from(counted)
+    ).one()
+    newest = select(counted.c.active_seconds).order_by(counted.c.id.desc()).limit(RECENT_ANSWERS)
+    recent = tx.conn.execute(newest).scalars().all()
+    return wire.Me(
+        id=who.id,
+        name=who.name,
+        role=who.role,
+        answers=total[0],
+        answers_today=total[2],
+        median_seconds=statistics.median(recent) if recent else None,
+        units=to_units(int(total[1])),
+    )
 
 
 def _by_kind(midnight: float) -> Select[Any]:
-    """Return a row per annotator and kind; `midnight` began the day."""
+    """Return the statement with one row per annotator and kind; `midnight` is when today began (UTC)."""
     mine = (answers.c.user_id, queries.c.kind)
     given = (
         select(answers.c.user_id, queries.c.kind, answers.c.units, answers.c.seconds, answers.c.created_at)
-        .add_columns(probes.c.n_labels, probes.c.n_right)
+        .add_columns(gold_showings.c.n_labels, gold_showings.c.n_right)
         .add_columns(func.row_number().over(order_by=answers.c.seconds, partition_by=mine).label("rank"))
         .add_columns(func.count().over(partition_by=mine).label("n"))
         .join(queries, queries.c.answer_id == answers.c.id)
-        .outerjoin(probes, probes.c.query_id == queries.c.id)
+        .outerjoin(gold_showings, gold_showings.c.query_id == queries.c.id)
         .subquery()
     )
     today, week = given.c.created_at >= midnight, given.c.created_at >= midnight - (WEEK_DAYS - 1) * DAY
-    in_the_middle = and_(2 * given.c.rank >= given.c.n, 2 * given.c.rank <= given.c.n + 2)  # one row, or two
+    # The median is the mean of these rows: one if the count is odd, two if it is even.
+    in_the_middle = and_(2 * given.c.rank >= given.c.n, 2 * given.c.rank <= given.c.n + 2)
     return (
         select(
             given.c.user_id, users.c.name, given.c.kind, func.count().label("n"), func.sum(given.c.units).label("units")
@@ -51,18 +80,18 @@ def _units_where(given: Any, condition: Any) -> Any:
 
 
 def of_user(tx: Tx, user: int) -> wire.Numbers:
-    """Return an annotator's numbers; all zero for who has answered nothing."""
+    """Return one annotator's performance; all numbers are 0 before the first answer."""
     name = tx.conn.execute(select(users.c.name).where(users.c.id == user)).scalar_one()
     rows = tx.conn.execute(_by_kind(_midnight(tx)).where(users.c.id == user)).all()
     return _numbers(user, name, rows)
 
 
 def of_everyone(tx: Tx) -> wire.NumbersList:
-    """Return the numbers of all who ever answered, by name."""
-    people: dict[tuple[int, str], list[Row[Any]]] = defaultdict(list)
+    """Return the performance of every annotator who ever answered, by name."""
+    by_annotator: dict[tuple[int, str], list[Row[Any]]] = defaultdict(list)
     for row in tx.conn.execute(_by_kind(_midnight(tx))):
-        people[row.user_id, row.name].append(row)
-    return wire.NumbersList(annotators=[_numbers(user, name, rows) for (user, name), rows in people.items()])
+        by_annotator[row.user_id, row.name].append(row)
+    return wire.NumbersList(annotators=[_numbers(user, name, rows) for (user, name), rows in by_annotator.items()])
 
 
 def _midnight(tx: Tx) -> float:

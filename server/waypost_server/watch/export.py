@@ -1,8 +1,8 @@
-"""A run's tables as CSV or JSON Lines, streamed a page of rows at a time, however long the run is.
+"""Export of a run's tables as CSV or JSON Lines, streamed a few rows at a time, so that long runs need no memory.
 
-CSV is often opened in a spreadsheet, which would carry out a cell that begins like a formula. Text that people or
-programs chose (names, questions) is therefore preceded by an apostrophe there if it begins with one of
-`= + - @`, a tab or a line break. JSON Lines carry it as it is.
+Spreadsheets execute a CSV cell that begins like a formula. In CSV, text that people or programs chose (names,
+questions) therefore gets a leading apostrophe if it begins with `= + - @`, a tab or a line break. JSON Lines keep the
+text unchanged.
 """
 
 import csv
@@ -14,20 +14,20 @@ from pydantic import JsonValue
 
 from waypost import wire
 from waypost_server.db import canonical
-from waypost_server.db.engine import Tx
 from waypost_server.db.tables import queries as query_table
+from waypost_server.db.transaction import Tx
 from waypost_server.http.context import Context
 from waypost_server.queries import service as queries
 from waypost_server.runs import curves
-from waypost_server.watch import browsing
+from waypost_server.watch import ledger_rows
 
-PAGE = 500
+PAGE = 500  # rows read at once
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\uff1d", "\uff0b", "\uff0d", "\uff20")
 MEDIA_TYPES: Mapping[wire.ExportFormat, str] = {"csv": "text/csv; charset=utf-8", "jsonl": "application/jsonl"}
 
 Record = dict[str, JsonValue]
-Records = list[tuple[int, Record]]  # each with where to go on after it
-Look = Callable[[Tx, str, int], Records]  # a run's rows past a cursor
+Records = list[tuple[int, Record]]  # each with the cursor after it
+Read = Callable[[Tx, str, int], Records]  # a run's next rows after a cursor
 
 LEDGER_COLUMNS = tuple(wire.LedgerEntry.model_fields)
 QUERY_COLUMNS = (
@@ -58,12 +58,12 @@ COLUMNS: Mapping[wire.ExportTable, Sequence[str]] = {
 
 
 def harmless(value: str) -> str:
-    """Return a text that no spreadsheet takes for a formula."""
+    """Return a text that no spreadsheet treats as a formula."""
     return f"'{value}" if value.startswith(FORMULA) else value
 
 
 def csv_line(values: Iterable[JsonValue]) -> str:
-    """Return a line of CSV (RFC 4180): nothing for null, JSON for what is nested."""
+    """Return a line of CSV (RFC 4180). Null becomes an empty cell; nested values become JSON."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\r\n").writerow([_cell(value) for value in values])
     return text.getvalue()
@@ -78,13 +78,13 @@ def _cell(value: JsonValue) -> JsonValue:
 
 
 async def stream(context: Context, run: str, table: wire.ExportTable, form: wire.ExportFormat) -> AsyncIterator[str]:
-    """Yield a table of a run, in the order things happened."""
-    look = LOOKS[table]
+    """Yield a table of a run, oldest rows first."""
+    read_rows = READERS[table]
     columns = COLUMNS[table]
     if form == "csv":
         yield csv_line(columns)
     cursor = -1
-    while records := await context.db.read(_following(look, run, cursor)):
+    while records := await context.db.read(_following(read_rows, run, cursor)):
         if form == "csv":
             yield "".join(csv_line(record.get(name) for name in columns) for _, record in records)
         else:
@@ -92,12 +92,12 @@ async def stream(context: Context, run: str, table: wire.ExportTable, form: wire
         cursor = records[-1][0]
 
 
-def _following(look: Look, run: str, after: int) -> Callable[[Tx], Records]:
-    return lambda tx: look(tx, run, after)
+def _following(read_rows: Read, run: str, after: int) -> Callable[[Tx], Records]:
+    return lambda tx: read_rows(tx, run, after)
 
 
 def _curves(tx: Tx, run: str, after: int) -> Records:
-    """Return a record per reported episode past one."""
+    """Return one record per reported episode after a cursor."""
     found = curves.curves(tx, run, after).model_dump(mode="json")
     by_kind = found.pop("cost_by_kind")
     found |= {f"{_COST}{kind}": sums for kind, sums in by_kind.items()}
@@ -106,22 +106,22 @@ def _curves(tx: Tx, run: str, after: int) -> Records:
 
 
 def _ledger(tx: Tx, run: str, after: int) -> Records:
-    """Return the next lines of the ledger."""
-    return [(line.id, line.model_dump(mode="json")) for line in browsing.ledger_after(tx, run, after, PAGE)]
+    """Return the next entries of the ledger."""
+    return [(line.id, line.model_dump(mode="json")) for line in ledger_rows.ledger_after(tx, run, after, PAGE)]
 
 
 def _queries(tx: Tx, run: str, after: int) -> Records:
-    """Return the next queries, whole: what was asked with its trajectory, and the answer."""
+    """Return the next queries, with their trajectories and answers."""
     chosen = queries.QUERIES.where(query_table.c.run_id == run, query_table.c.id > after)
     rows = tx.conn.execute(chosen.order_by(query_table.c.id).limit(PAGE))
     return [(row.id, _flat(queries.of_row(row))) for row in rows]
 
 
 def _flat(query: wire.Query) -> Record:
-    """Return a query with what names it beside it, where a table looks for it."""
+    """Return a query with the columns of the table at the top level."""
     record: Record = query.model_dump(mode="json")
     ask = query.ask
     return record | {"episode": ask.episode, "ordinal": ask.ordinal, "kind": ask.kind, "question": ask.question}
 
 
-LOOKS: Mapping[wire.ExportTable, Look] = {"curves": _curves, "ledger": _ledger, "queries": _queries}
+READERS: Mapping[wire.ExportTable, Read] = {"curves": _curves, "ledger": _ledger, "queries": _queries}

@@ -1,17 +1,12 @@
-"""Metrics in Prometheus' text format, counted in the store itself."""
+"""Metrics in Prometheus' text format, counted in the store."""
 
 from collections.abc import Iterable
 
 from sqlalchemy import func, select
 
 from waypost.prices import to_units
-from waypost_server.db.engine import Tx
 from waypost_server.db.tables import answers, assignments, ledger, queries, runs
-
-
-def probe(tx: Tx) -> None:
-    """Read something: the database answers and has the tables."""
-    tx.conn.execute(select(runs.c.id).limit(1)).all()
+from waypost_server.db.transaction import Tx
 
 
 def text(tx: Tx) -> str:

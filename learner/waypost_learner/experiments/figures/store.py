@@ -32,7 +32,7 @@ class _Store:
         self._db = db
 
     def runs(self) -> list[wire.Run]:
-        return self._db.read_now(lambda tx: listing.listed(tx, listing.Filter(limit=MOST_RUNS))).runs
+        return self._db.read_now(lambda tx: listing.list_runs(tx, listing.Filter(limit=MOST_RUNS))).runs
 
     def curves(self, run: str) -> wire.Curves:
         return self._db.read_now(lambda tx: curves.curves(tx, run))

@@ -1,4 +1,4 @@
-"""Alembic's entry: run the migrations on the connection that `server.schema` opened."""
+"""Alembic's entry point: runs the migrations on the connection that `db.schema` opened."""
 
 from alembic import context
 

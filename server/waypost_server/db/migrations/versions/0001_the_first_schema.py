@@ -262,7 +262,7 @@ def upgrade() -> None:
     )
     op.create_index("ix_ledger_run", "ledger", ["run_id", "episode", "kind"], unique=False)
     if op.get_bind().dialect.name == "postgresql":
-        # The two tables name each other; SQLite takes that when it creates the first.
+        # The two tables refer to each other. SQLite accepts a reference to a table that does not exist yet.
         op.create_foreign_key("fk_queries_answer_id", "queries", "answers", ["answer_id"], ["id"])
         refuse_changes_on_postgresql()
     else:

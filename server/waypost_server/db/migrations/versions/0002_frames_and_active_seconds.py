@@ -1,4 +1,4 @@
-"""Frames, and active seconds beside the raw ones."""
+"""Frames, and active seconds in addition to raw seconds."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -7,7 +7,7 @@ revision = "0002"
 down_revision = "0001"
 
 ROW_ID = sa.BigInteger().with_variant(sa.Integer(), "sqlite")
-IDLE_SECONDS = 30.0  # the cap of this migration's day
+IDLE_SECONDS = 30.0  # the default when this migration was written
 
 
 def upgrade() -> None:

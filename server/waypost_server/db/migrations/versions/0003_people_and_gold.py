@@ -1,4 +1,4 @@
-"""People who come and go, and gold queries."""
+"""Deactivated users, and gold queries."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -13,7 +13,7 @@ def upgrade() -> None:
     """Add what is known of people and their secrets, and the tables of gold queries."""
     op.add_column("users", sa.Column("deactivated_at", sa.Float(), nullable=True))
     op.add_column("credentials", sa.Column("last_used_at", sa.Float(), nullable=True))
-    # Spelled out: both databases take a constraint with a new column, and SQLite needs no copy of the table then.
+    # As SQL: both databases accept a constraint with a new column, and SQLite then needs no copy of the table.
     op.execute(
         "ALTER TABLE runs ADD COLUMN gold_rate FLOAT DEFAULT 0 NOT NULL "
         "CONSTRAINT ck_runs_gold_rate CHECK (gold_rate >= 0 AND gold_rate <= 0.5)"

@@ -1,4 +1,4 @@
-"""A run's priority, and indexes for leafing through a run's queries and ledger."""
+"""The priority of runs, and indexes for the tables of a run's queries and ledger."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -8,7 +8,7 @@ down_revision = "0003"
 
 
 def upgrade() -> None:
-    """Add the priority to runs and to their queries, and find the next query by both."""
+    """Add the priority to runs and to their queries, and index the next query by both."""
     op.add_column("runs", sa.Column("priority", sa.Integer(), nullable=False, server_default=sa.text("0")))
     op.add_column("queries", sa.Column("run_priority", sa.Integer(), nullable=False, server_default=sa.text("0")))
     op.drop_index("ix_queries_next", table_name="queries")

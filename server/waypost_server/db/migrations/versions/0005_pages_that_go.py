@@ -1,4 +1,4 @@
-"""Which page holds a query, and which pages have gone."""
+"""The browser tab of an assignment, and closed tabs."""
 
 import sqlalchemy as sa
 from alembic import op

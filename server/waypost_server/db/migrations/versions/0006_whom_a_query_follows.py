@@ -1,4 +1,4 @@
-"""Whom a query follows: who answered its episode last when it was asked."""
+"""The user whose answer a query follows in its episode."""
 
 from alembic import op
 
@@ -7,8 +7,8 @@ down_revision = "0005"
 
 
 def upgrade() -> None:
-    """Add the column; what is open now follows nobody."""
-    # Spelled out: both databases take a constraint with a new column, and SQLite needs no copy of the table then.
+    """Add the column. Queries that are open now follow nobody."""
+    # As SQL: both databases accept a constraint with a new column, and SQLite then needs no copy of the table.
     op.execute(
         "ALTER TABLE queries ADD COLUMN follows_user_id "
         + ("INTEGER" if op.get_bind().dialect.name == "sqlite" else "BIGINT")

@@ -3,7 +3,7 @@
 import pytest
 from sqlalchemy import text
 from tests.server.kit import Service, query
-from tests.server.test_curves import filled, report, result
+from tests.server.runs.test_curves import filled, report, result
 
 
 def changed(service: Service, statement: str) -> None:

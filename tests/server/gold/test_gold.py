@@ -11,7 +11,7 @@ from sqlalchemy import select
 from tests.server.kit import API, Caller, Json, Service, in_process, query, right_answer
 
 from waypost_server.db.tables import ledger
-from waypost_server.gold.schedule import Place
+from waypost_server.gold.schedule import Position
 
 
 def known(kind: str, n_actions: int = 2) -> Json:
@@ -291,13 +291,13 @@ def test_a_run_with_gold_queries_costs_and_learns_what_it_does_without(database_
 @given(user=st.integers(1, 50), rate=st.floats(0.01, 0.5), length=st.integers(1, 400))
 @settings(deadline=None, max_examples=60)
 def test_the_places_of_gold_queries_keep_to_the_rate_anywhere(user: int, rate: float, length: int) -> None:
-    places = [n for n in range(length) if Place(user, "00000000abcd", n).is_gold(rate)]
+    places = [n for n in range(length) if Position(user, "00000000abcd", n).is_gold(rate)]
     assert abs(len(places) - rate * length) <= 1
-    assert places == [n for n in range(length) if Place(user, "00000000abcd", n).is_gold(rate)]
+    assert places == [n for n in range(length) if Position(user, "00000000abcd", n).is_gold(rate)]
 
 
 def test_the_places_differ_between_people_and_are_not_every_nth() -> None:
-    streams = [[n for n in range(100) if Place(user, "00000000abcd", n).is_gold(0.1)] for user in range(6)]
+    streams = [[n for n in range(100) if Position(user, "00000000abcd", n).is_gold(0.1)] for user in range(6)]
     assert len({tuple(stream) for stream in streams}) == 6
     gaps = {b - a for stream in streams for a, b in pairwise(stream)}
     assert len(gaps) > 5

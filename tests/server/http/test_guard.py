@@ -134,7 +134,7 @@ def test_a_failure_of_the_server_says_nothing_of_its_inside(sqlite_url: str, mon
     def fail(*_: object) -> None:
         raise RuntimeError("secret")
 
-    monkeypatch.setattr("waypost_server.runs.listing.listed", fail)
+    monkeypatch.setattr("waypost_server.runs.listing.list_runs", fail)
     with in_process(sqlite_url) as service:
         service.client._transport.raise_server_exceptions = False
         reply = service.client.get(f"{API}/runs", headers=service.viewer.headers)

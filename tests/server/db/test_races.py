@@ -12,8 +12,9 @@ from tests.server.kit import VOCABULARY, Json, Service, in_process, query, right
 
 from waypost import wire
 from waypost_server.app import create_app
-from waypost_server.db.engine import Tx
+from waypost_server.db.transaction import Tx
 from waypost_server.leases import service as leases
+from waypost_server.leases.request import LeaseRequest
 from waypost_server.settings import Settings
 
 LEASE_SECONDS = 2.0
@@ -130,15 +131,15 @@ def test_an_answer_is_either_used_or_taken_back(service: Service) -> None:
     assert service.learner.costs(run)["total"] == 15
 
 
-def test_a_query_leased_while_its_page_says_that_it_goes_is_open_again(database_url: str) -> None:
+def test_a_query_that_is_leased_while_its_tab_closes_is_open_again(database_url: str) -> None:
     with in_process(database_url) as service:
         service.learner.ask(service.learner.create_run(), query())
         user = service.annotator.get("/me")["id"]
-        wish = leases.Wish.of(wire.Lease(tab="one"), user, Settings(database=database_url))
+        wanted = LeaseRequest.of(wire.Lease(tab="one"), user, Settings(database=database_url))
         is_leased = threading.Event()
 
         def lease(tx: Tx) -> None:
-            assert leases.lease(tx, wish) is not None
+            assert leases.lease(tx, wanted) is not None
             is_leased.set()
             time.sleep(0.5)  # not committed yet
 

@@ -72,5 +72,5 @@ def test_a_server_can_have_practice_of_its_own(sqlite_url: str, tmp_path: Path) 
     own["exercises"][0]["known"]["kind"] = "inspect_lo"
     file.write_text(json.dumps(own))
     for path in (file, tmp_path / "missing.json"):
-        with pytest.raises(BadPractice, match="holds no practice queries"):
+        with pytest.raises(BadPractice, match="has no practice queries"):
             PracticeSet(path)

@@ -16,6 +16,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 from waypost_server import serving
+from waypost_server.auth import sessions
 from waypost_server.auth.permissions import COOKIE
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
@@ -182,7 +183,7 @@ def test_another_host_name_is_refused_at_the_handshake(simple: Play) -> None:
 def test_a_session_is_good_from_the_servers_own_page_alone(simple: Play) -> None:
     db = simple.served.db
     user = db.write_now(lambda tx: users.ensure_user(tx, "abe", "annotator"))
-    code = db.write_now(lambda tx: users.create_login(tx, user.id, 60)).code
+    code = db.write_now(lambda tx: sessions.create_login_link(tx, user.id, 60)).code
     own = {"Origin": simple.served.url}
     login = simple.service.client.post(f"{API}/session", json={"code": code}, headers=own)
     cookie = f"{COOKIE}={login.cookies[COOKIE]}"

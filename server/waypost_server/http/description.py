@@ -1,7 +1,6 @@
-"""The OpenAPI document, complete enough to generate clients from; `python -m server.openapi` prints it."""
+"""The OpenAPI document of the API, complete enough to generate clients from it."""
 
 import json
-import sys
 from typing import Any
 
 from fastapi import FastAPI
@@ -26,7 +25,7 @@ PLAYED = (wire.PlayTake, wire.PlayOffer, wire.PlayMoves, wire.PlayStates, wire.P
 
 
 def install(app: FastAPI) -> None:
-    """Have the app describe itself with this document."""
+    """Make the app serve this document."""
 
     def build() -> dict[str, Any]:
         if app.openapi_schema is None:
@@ -50,7 +49,7 @@ def document(app: FastAPI) -> dict[str, Any]:
 
 
 def _socket_messages() -> dict[str, Any]:
-    """Return the schemas of the messages of the play socket, which OpenAPI has no path for."""
+    """Return the schemas of the play socket's messages. OpenAPI describes no sockets, so no path refers to them."""
     _, schema = models_json_schema(
         [(model, "serialization") for model in PLAYED], ref_template="#/components/schemas/{model}"
     )
@@ -59,7 +58,7 @@ def _socket_messages() -> dict[str, Any]:
 
 
 def _state_problems(operation: dict[str, Any]) -> None:
-    """Give every operation the refusals that any of them may answer, all as problem documents."""
+    """Add to an operation the errors that every operation can return, all as problem documents."""
     responses: dict[str, Any] = operation["responses"]
     responses.pop("422", None) if _is_fastapis(responses.get("422")) else None
     for status, shared in SHARED.items():
@@ -77,12 +76,12 @@ def _state_problems(operation: dict[str, Any]) -> None:
 
 
 def _is_fastapis(response: dict[str, Any] | None) -> bool:
-    """Say whether a 422 is FastAPI's own, which this server never sends."""
+    """Return whether a 422 response is FastAPI's own, which this server never sends."""
     return response is not None and "HTTPValidationError" in json.dumps(response)
 
 
 def _renamed(document: dict[str, Any]) -> dict[str, Any]:
-    """Call what is sent and received `Ask` and `AskInput` rather than `Ask-Output` and `Ask-Input`."""
+    """Rename schemas: `Ask-Output` becomes `Ask`, and `Ask-Input` becomes `AskInput`."""
     text = json.dumps(document)
     for name in document["components"]["schemas"]:
         if name.endswith("-Output"):
@@ -93,15 +92,3 @@ def _renamed(document: dict[str, Any]) -> dict[str, Any]:
             text = text.replace(f'/{name}"', f'/{name.replace("-", "")}"')
     renamed: dict[str, Any] = json.loads(text)
     return renamed
-
-
-def main() -> None:
-    """Print the document."""
-    from waypost_server.app import create_app
-
-    json.dump(create_app().openapi(), sys.stdout, indent=2)
-    sys.stdout.write("\n")
-
-
-if __name__ == "__main__":
-    main()

@@ -10,7 +10,8 @@ from sqlalchemy import Engine, create_engine, event, text
 from sqlalchemy.exc import OperationalError
 
 from waypost_server import errors
-from waypost_server.db.engine import Database, Tx
+from waypost_server.db.engine import Database
+from waypost_server.db.transaction import Tx
 from waypost_server.db.writer import GroupCommit
 
 

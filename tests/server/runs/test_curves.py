@@ -7,7 +7,7 @@ from sqlalchemy import text
 from tests.server.kit import Json, Service, in_process, query, right_answer
 
 from waypost_server.db.engine import Database
-from waypost_server.runs.curves import _cumulative, _first_at, trailing
+from waypost_server.runs.curves import cumulative, first_at, trailing
 
 
 def result(episode: int, passed: bool | None = True, **more: object) -> Json:
@@ -34,20 +34,20 @@ def test_the_trailing_rate_leaves_untested_episodes_out() -> None:
 
 
 def test_costs_add_up_to_each_reported_episode() -> None:
-    assert _cumulative([0, 2, 3], [(0, 1), (1, 2), (3, 4), (9, 8)]) == [1, 3, 7]
-    assert _cumulative([], [(0, 1)]) == []
-    assert _cumulative([5], []) == [0]
+    assert cumulative([0, 2, 3], [(0, 1), (1, 2), (3, 4), (9, 8)]) == [1, 3, 7]
+    assert cumulative([], [(0, 1)]) == []
+    assert cumulative([5], []) == [0]
 
 
 def test_a_level_counts_only_over_a_hundred_tests() -> None:
     tests: list[bool | None] = [True] * 99 + [None, False, True]
     episodes = list(range(len(tests)))
     costs = [float(n) for n in episodes]
-    milestone = _first_at(0.99, episodes, tests, costs)
+    milestone = first_at(0.99, episodes, tests, costs)
     assert milestone is not None
     assert (milestone.episode, milestone.cost) == (100, 100.0)
-    assert _first_at(1.0, episodes, tests, costs) is None
-    assert _first_at(0.5, episodes[:99], tests[:99], costs[:99]) is None
+    assert first_at(1.0, episodes, tests, costs) is None
+    assert first_at(0.5, episodes[:99], tests[:99], costs[:99]) is None
 
 
 def test_curves_join_episodes_with_the_ledger(service: Service) -> None:

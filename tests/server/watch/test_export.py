@@ -6,7 +6,7 @@ import json
 
 import pytest
 from tests.server.kit import Service, query
-from tests.server.test_curves import report, result
+from tests.server.runs.test_curves import report, result
 
 from waypost_server.watch.export import PAGE, csv_line, harmless
 

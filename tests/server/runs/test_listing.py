@@ -1,7 +1,7 @@
 """The list of runs: found by words and state, sorted, and paged."""
 
 from tests.server.kit import VOCABULARY, Json, Service, query
-from tests.server.test_curves import report, result
+from tests.server.runs.test_curves import report, result
 
 
 def names(page: Json) -> list[str]:

@@ -8,13 +8,14 @@ import httpx2
 import pytest
 from tests.server.kit import API, Caller, Service, in_process, query, together
 
+from waypost_server.auth import sessions
 from waypost_server.users import service as users
 
 SAME = {"Sec-Fetch-Site": "same-origin"}
 
 
 def code_for(service: Service, name: str = "abe") -> str:
-    user = service.db.read_now(lambda tx: users.named(tx, name))
+    user = service.db.read_now(lambda tx: users.find_by_name(tx, name))
     return str(service.admin.post(f"/users/{user.id}/login-links", expect=201)["code"])
 
 
@@ -49,8 +50,8 @@ def test_a_login_code_grows_old(database_url: str) -> None:
 
 
 def test_a_session_grows_old(lite: Service) -> None:
-    code = lite.db.write_now(lambda tx: users.create_login(tx, 1, 60)).code
-    session = lite.db.write_now(lambda tx: users.redeem(tx, code, -1))
+    code = lite.db.write_now(lambda tx: sessions.create_login_link(tx, 1, 60)).code
+    session = lite.db.write_now(lambda tx: sessions.redeem(tx, code, -1))
     assert session is not None
     lite.client.cookies.set("waypost_session", session.secret)
     assert lite.client.get(f"{API}/me").status_code == 401
@@ -163,7 +164,7 @@ def test_broken_credentials_are_refused_not_crashed_on(lite: Service) -> None:
 
 
 def id_of(service: Service, name: str) -> int:
-    return service.db.read_now(lambda tx: users.named(tx, name)).id
+    return service.db.read_now(lambda tx: users.find_by_name(tx, name)).id
 
 
 @pytest.mark.parametrize(
@@ -179,7 +180,7 @@ def test_a_login_link_that_does_not_work_says_why(lite: Service, spoil: str, pro
     elif spoil == "deactivate":
         lite.admin.call("PATCH", f"/users/{id_of(lite, 'abe')}", {"active": False})
     else:
-        code = lite.db.write_now(lambda tx: users.create_login(tx, 1, -1)).code
+        code = lite.db.write_now(lambda tx: sessions.create_login_link(tx, 1, -1)).code
     refused = log_in(lite, code)
     assert (refused.status_code, refused.json()["type"]) == (401, f"/problems/{problem}")
     assert code not in refused.text

@@ -7,9 +7,10 @@ from alembic.autogenerate import compare_metadata
 from alembic.runtime.migration import MigrationContext
 from sqlalchemy import text
 
-from waypost_server.db.engine import BadDatabase, Database, Tx, parse
+from waypost_server.db.engine import BadDatabase, Database, parse
 from waypost_server.db.schema import NewerStore
 from waypost_server.db.tables import metadata
+from waypost_server.db.transaction import Tx
 
 
 def differences(tx: Tx) -> list[object]:
@@ -82,12 +83,12 @@ def test_servers_that_start_together_migrate_once(database_url: str) -> None:
 @pytest.mark.parametrize(
     ("url", "reason"),
     [
-        ("waypost.db", "is no database URL"),
-        ("mysql://root@localhost/x", "is no database URL|not supported"),
-        ("oracle+nothing://x", "is no database URL"),
+        ("waypost.db", "is not a database URL"),
+        ("mysql://root@localhost/x", "is not a database URL|not supported"),
+        ("oracle+nothing://x", "is not a database URL"),
         ("sqlite://", "needs a file"),
         ("sqlite:///:memory:", "needs a file"),
-        ("", "is no database URL"),
+        ("", "is not a database URL"),
     ],
 )
 def test_a_database_url_that_cannot_be_used_is_explained(url: str, reason: str) -> None:

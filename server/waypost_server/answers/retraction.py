@@ -1,0 +1,83 @@
+"""Retraction: an annotator takes back an answer that the learner has not used."""
+
+from typing import Any
+
+from sqlalchemy import Row, select, update
+
+from waypost import wire
+from waypost.prices import Cost, to_units
+from waypost_server import errors
+from waypost_server.answers.service import ANSWER_OF, LOCK_QUERY
+from waypost_server.db.tables import IS_LIVE, assignments
+from waypost_server.db.tables import ledger as ledger_table
+from waypost_server.db.tables import queries as query_table
+from waypost_server.db.transaction import Tx
+from waypost_server.gold import schedule
+from waypost_server.leases.assignments import find, view
+from waypost_server.leases.service import grant
+from waypost_server.queries import service as queries
+from waypost_server.runs import events, ledger
+from waypost_server.runs import service as runs
+from waypost_server.settings import Settings
+
+
+def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Settings) -> wire.Assignment:
+    """Retract an answer: refund it, and lease its query to the same annotator again.
+
+    The answer keeps its row. The query gets a new revision, which the next answer belongs to.
+
+    Raises:
+        NotFound, NotYours, WrongToken: the user does not have this assignment.
+        LeaseEnded: the assignment has no answer that counts.
+        AnswerUsed: the learner has used the answer.
+        AnswerRetracted: the answer was retracted before, and its new lease is over.
+        RunFinished, BudgetExhausted: the run cannot have the query answered again.
+    """
+    found = find(tx, assignment, user, body.token)
+    run = runs.lock(tx, found.run)
+    query = tx.conn.execute(LOCK_QUERY, {"query": found.query}).one()
+    given = tx.conn.execute(ANSWER_OF, {"assignment": assignment}).one_or_none()
+    if given is None or given.revision is None:
+        raise errors.LeaseEnded("This assignment has no answer that counts.")
+    if query.answer_id != given.id:
+        return _retracted_before(tx, query.id, user)
+    if query.used:
+        raise errors.AnswerUsed("The learner has used this answer, so it can no longer be retracted.")
+    if run.state == "finished":
+        raise errors.RunFinished("The run is finished, so its answers can no longer be retracted.")
+    if run.gold_of is not None:
+        schedule.unscore(tx, query.id)
+    else:
+        _refund(tx, run, query, given)
+    tx.conn.execute(
+        update(query_table)
+        .where(query_table.c.id == query.id)
+        .values(state="leased", answer_id=None, revision=query.revision + 1)
+    )
+    events.add(tx, run.id, "retracted", {"query": query.id, "answer": given.id, "units": to_units(given.units)})
+    tx.wake(queries.topic(query.id))
+    return view(tx, grant(tx, query.id, user, settings.lease_seconds, tab=body.tab))
+
+
+def _refund(tx: Tx, run: Row[Any], query: Row[Any], given: Row[Any]) -> None:
+    of_answer = (ledger_table.c.answer_id == given.id, ledger_table.c.entry == "charge")
+    charged = tx.conn.execute(select(ledger_table).where(*of_answer)).one()
+    cost = Cost(charged.units, charged.lo_units)
+    entry = ledger.Entry(
+        run.id, query.id, given.id, query.kind, query.episode, cost, charged.seconds, charged.active_seconds
+    )
+    ledger.refund(tx, entry, runs.account(run), query.reserve)
+
+
+def _retracted_before(tx: Tx, query: int, user: int) -> wire.Assignment:
+    """Return the assignment that an earlier retraction created, if it is still live."""
+    live_now = select(assignments.c.id).where(
+        assignments.c.query_id == query,
+        assignments.c.user_id == user,
+        IS_LIVE,
+        assignments.c.expires_at > tx.now,
+    )
+    one = tx.conn.execute(live_now).scalar_one_or_none()
+    if one is None:
+        raise errors.AnswerRetracted("This answer was retracted before.")
+    return view(tx, one)

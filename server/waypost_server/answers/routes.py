@@ -1,0 +1,79 @@
+"""An annotator answers a query, or takes an answer back."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Header, Request
+
+from waypost import wire
+from waypost_server import errors
+from waypost_server.answers import retraction
+from waypost_server.answers import service as answers
+from waypost_server.auth.permissions import AnnotatorCalls
+from waypost_server.http.context import Ctx
+from waypost_server.http.jsonbody import JsonRoute
+from waypost_server.http.parameters import RowPath
+from waypost_server.http.problems import refusals
+from waypost_server.leases import waiting
+from waypost_server.leases.request import LeaseRequest
+from waypost_server.leases.routes import NO_LIVE_LEASE
+
+router = APIRouter(prefix="/assignments", tags=["assignments"], route_class=JsonRoute)
+
+Key = Annotated[
+    str | None,
+    Header(
+        alias="Idempotency-Key",
+        pattern=r"^[\x21-\x7e]{1,200}$",
+        description="Names this attempt. Sending the same attempt again returns the same receipt.",
+    ),
+]
+
+
+@router.post(
+    "/{assignment}/answer",
+    operation_id="answer",
+    responses=refusals(
+        *NO_LIVE_LEASE,
+        errors.QueryCancelled,
+        errors.AnswerRetracted,
+        errors.DifferentContent,
+        errors.KeyReused,
+    ),
+)
+async def answer(
+    assignment: RowPath,
+    body: wire.AnswerPost,
+    request: Request,
+    context: Ctx,
+    caller: AnnotatorCalls,
+    key: Key = None,
+) -> wire.Receipt:
+    """Answer. The answer is stored, charged and closed in one transaction, and acknowledged when it is on disk."""
+    following = LeaseRequest.of(body.next, caller.user, context.settings, after=assignment) if body.next else None
+    post = answers.Post(assignment, caller.user, body.token, body.answer, key, context.settings.idle_seconds)
+    outcome = await context.db.write(lambda tx: answers.answer(tx, post, following))
+    receipt = outcome.receipt()
+    if following is None or body.next is None or receipt.next is not None or body.next.wait == 0:
+        return receipt
+    leased = await waiting.lease(context, request, following, body.next.wait)
+    return receipt.model_copy(update={"next": leased})
+
+
+@router.post(
+    "/{assignment}/retract",
+    operation_id="retract",
+    responses=refusals(
+        errors.NotFound,
+        errors.NotYours,
+        errors.WrongToken,
+        errors.LeaseEnded,
+        errors.AnswerUsed,
+        errors.AnswerRetracted,
+        errors.RunFinished,
+        errors.BudgetExhausted,
+    ),
+)
+async def retract(assignment: RowPath, body: wire.Retract, context: Ctx, caller: AnnotatorCalls) -> wire.Assignment:
+    """Take back an answer that the learner has not used. It is refunded, and its query is leased again."""
+    settings = context.settings
+    return await context.db.write(lambda tx: retraction.retract(tx, assignment, caller.user, body, settings))

@@ -1,0 +1,83 @@
+"""Browser sessions, and the login links that start them."""
+
+from sqlalchemy import select, update
+
+from waypost import wire
+from waypost_server import errors
+from waypost_server.auth.credentials import Secret, hash_of, issue, valid
+from waypost_server.db.tables import credentials, users
+from waypost_server.db.transaction import Tx
+
+RENEWED_AFTER = 0.1  # sliding renewal: a session is extended once this share of its lifetime is over
+
+
+def create_login_link(tx: Tx, user: int, seconds: float) -> wire.LoginLink:
+    """Create a one-time login code that is valid for `seconds`.
+
+    Raises:
+        NotFound: there is no such user.
+        NotActive: the user is deactivated.
+    """
+    issued = issue(tx, user, "login", seconds=seconds)
+    return wire.LoginLink(code=issued.secret, expires_at=issued.expires_at or 0.0)
+
+
+def redeem(tx: Tx, code: str, seconds: float) -> Secret | None:
+    """Use up a login code and return a new session, or None if the code is not valid (`why_refused` says why)."""
+    used = tx.conn.execute(
+        update(credentials)
+        .where(
+            credentials.c.hash == hash_of(code),
+            credentials.c.kind == "login",
+            credentials.c.revoked_at.is_(None),
+            credentials.c.expires_at > tx.now,
+        )
+        .values(revoked_at=tx.now)
+        .returning(credentials.c.user_id)
+    ).one_or_none()
+    return None if used is None else issue(tx, used.user_id, "session", seconds=seconds)
+
+
+def why_refused(tx: Tx, code: str) -> errors.Unauthenticated:
+    """Return the reason why a login code is not valid, and what to do about it."""
+    known = (
+        select(credentials.c.revoked_at, users.c.deactivated_at)
+        .join(users, users.c.id == credentials.c.user_id)
+        .where(credentials.c.hash == hash_of(code), credentials.c.kind == "login")
+    )
+    row = tx.conn.execute(known).one_or_none()
+    if row is None:
+        return errors.Unauthenticated("This login link does not exist; check that you copied the whole link.")
+    if row.deactivated_at is not None:
+        return errors.Deactivated("This account is deactivated; ask an administrator of this server.")
+    if row.revoked_at is not None:
+        return errors.LoginUsed("This login link was used before, and each link works once; ask for a new one.")
+    return errors.LoginExpired("This login link has expired; ask for a new one.")
+
+
+def list_sessions(tx: Tx, user: int, current: int) -> wire.SessionList:
+    """List a user's sessions, oldest first; `current` is the session that asks."""
+    rows = tx.conn.execute(valid(tx, user, "session"))
+    return wire.SessionList(
+        sessions=[
+            wire.Session(
+                id=row.id,
+                created_at=row.created_at,
+                last_used_at=row.last_used_at,
+                expires_at=row.expires_at,
+                current=row.id == current,
+            )
+            for row in rows
+        ]
+    )
+
+
+def renew_session(tx: Tx, session: int, seconds: float) -> bool:
+    """Extend a session to its full lifetime, if enough of it is over; return whether it was extended."""
+    renewed = tx.conn.execute(
+        update(credentials)
+        .where(credentials.c.id == session, credentials.c.revoked_at.is_(None))
+        .where(credentials.c.expires_at < tx.now + (1 - RENEWED_AFTER) * seconds)
+        .values(expires_at=tx.now + seconds)
+    )
+    return bool(renewed.rowcount)

@@ -1,0 +1,51 @@
+"""API tokens: created, listed and revoked."""
+
+from sqlalchemy import select
+
+from waypost import wire
+from waypost_server import errors
+from waypost_server.auth.credentials import issue, revoke, valid
+from waypost_server.db.tables import credentials, users
+from waypost_server.db.transaction import Tx
+
+
+def create_token(tx: Tx, user: int, label: str) -> wire.NewToken:
+    """Create an API token.
+
+    Raises:
+        NotFound: there is no such user.
+        NotActive: the user is deactivated.
+    """
+    issued = issue(tx, user, "api", label)
+    return wire.NewToken(id=issued.id, token=issued.secret)
+
+
+def list_tokens(tx: Tx, user: int) -> wire.TokenList:
+    """List a user's valid API tokens, oldest first.
+
+    Raises:
+        NotFound: there is no such user.
+    """
+    if tx.conn.execute(select(users.c.id).where(users.c.id == user)).one_or_none() is None:
+        raise errors.NotFound(f"There is no user {user}.")
+    rows = tx.conn.execute(valid(tx, user, "api"))
+    return wire.TokenList(
+        tokens=[
+            wire.Token(id=row.id, label=row.label, created_at=row.created_at, last_used_at=row.last_used_at)
+            for row in rows
+        ]
+    )
+
+
+def revoke_token(tx: Tx, token: int, owner: int | None = None) -> None:
+    """Revoke an API token; with `owner`, only if it belongs to that user.
+
+    Raises:
+        NotFound: there is no such token, or it belongs to another user.
+    """
+    found = select(credentials.c.id).where(credentials.c.id == token, credentials.c.kind == "api")
+    if owner is not None:
+        found = found.where(credentials.c.user_id == owner)
+    if tx.conn.execute(found).one_or_none() is None:
+        raise errors.NotFound(f"There is no token {token}.")
+    revoke(tx, token)

@@ -1,0 +1,46 @@
+"""A transaction: the connection, the time, and the topics to wake after the commit. Every statement runs in one."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from sqlalchemy import Connection, Table
+from sqlalchemy.dialects import postgresql, sqlite
+from sqlalchemy.sql import select
+
+from waypost_server.db.clock import clock
+from waypost_server.db.wakeups import Topics
+
+_NOW = select(clock())
+
+UPSERTS: dict[str, Callable[[Table], Any]] = {"sqlite": sqlite.insert, "postgresql": postgresql.insert}
+"""By dialect: an INSERT with `on_conflict_do_...`."""
+
+
+@dataclass
+class Tx:
+    """One transaction of one request."""
+
+    conn: Connection
+    topics: Topics = field(default_factory=set)
+    _now: float | None = None
+
+    @property
+    def now(self) -> float:
+        """The database's time in seconds since the epoch, read once per transaction."""
+        if self._now is None:
+            self._now = float(self.conn.execute(_NOW).scalar_one())
+        return self._now
+
+    @property
+    def one_writer(self) -> bool:
+        """Whether transactions run one after the other, so that rows need no locks (SQLite)."""
+        return self.conn.dialect.name == "sqlite"
+
+    def upsert(self, table: Table) -> Any:
+        """Return an INSERT with `on_conflict_do_update` and `on_conflict_do_nothing`."""
+        return UPSERTS[self.conn.dialect.name](table)
+
+    def wake(self, *topics: str) -> None:
+        """Wake the waiters of these topics after the commit."""
+        self.topics.update(topics)

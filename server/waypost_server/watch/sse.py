@@ -1,0 +1,55 @@
+"""Server-sent events: streams of the changes of one run, and of any run."""
+
+import asyncio
+from collections.abc import AsyncIterator
+from functools import partial
+
+from fastapi import Request
+
+from waypost import wire
+from waypost_server.db import wakeups
+from waypost_server.http.context import Context
+from waypost_server.runs import events
+
+PING_SECONDS = 15.0
+CHANGES_SECONDS = 1.0  # the least time between two messages about any run
+
+
+async def stream_run(context: Context, request: Request, run: str, cursor: int) -> AsyncIterator[str]:
+    """Yield the events of a run after a cursor, until the client disconnects or the server stops."""
+    clock = asyncio.get_running_loop().time
+    quiet_since = clock()
+    yield "retry: 1000\n\n"
+    while not context.hub.closed and not await request.is_disconnected():
+        changed = context.hub.watch(events.topic(run))
+        found = await context.db.read(partial(events.after, run=run, cursor=cursor))
+        for event in found:
+            yield f"id: {event.id}\nevent: {event.event}\ndata: {event.model_dump_json()}\n\n"
+            cursor = event.id
+        if found:
+            quiet_since = clock()
+            continue
+        if clock() - quiet_since >= PING_SECONDS:
+            yield ": still here\n\n"
+            quiet_since = clock()
+        await wakeups.pause(changed, context.settings.poll_seconds)
+
+
+async def stream_changes(context: Context, request: Request) -> AsyncIterator[str]:
+    """Yield a message when any run changed, until the client disconnects or the server stops."""
+    clock = asyncio.get_running_loop().time
+    cursor: int | None = None
+    said_at = clock()
+    yield "retry: 1000\n\n"
+    while not context.hub.closed and not await request.is_disconnected():
+        changed = context.hub.watch(events.ANY)
+        newest = await context.db.read(events.newest_of_all)
+        if cursor is not None and newest != cursor:
+            yield f"event: changed\ndata: {wire.Change(newest=newest).model_dump_json()}\n\n"
+            said_at = clock()
+            await asyncio.sleep(CHANGES_SECONDS)
+        elif clock() - said_at >= PING_SECONDS:
+            yield ": still here\n\n"
+            said_at = clock()
+        cursor = newest
+        await wakeups.pause(changed, context.settings.poll_seconds)
