@@ -47,6 +47,6 @@ export default defineConfig(
       '@typescript-eslint/no-unsafe-return': 'off',
     },
   },
-  { files: ['*.mjs', '*.js'], languageOptions: { globals: globals.node } },
+  { files: ['*.mjs', '*.cjs', '*.js'], languageOptions: { globals: globals.node } },
   { files: ['public/*.js'], languageOptions: { globals: globals.browser } },
 );

@@ -1,4 +1,4 @@
-// Checks the layers in .dependency-cruiser.mjs. dependency-cruiser does not see imports of types in .svelte files, because
+// Checks the layers in .dependency-cruiser.cjs. dependency-cruiser does not see imports of types in .svelte files, because
 // Svelte's compiler drops them first. So it is given a copy of src/ in which each .svelte file is its script alone.
 import { spawnSync } from 'node:child_process';
 import { cpSync, mkdtempSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
@@ -18,7 +18,7 @@ try {
     renameSync(path, `${path}.ts`);
   }
   const bin = join(web, 'node_modules/.bin/depcruise');
-  const config = join(web, '.dependency-cruiser.mjs');
+  const config = join(web, '.dependency-cruiser.cjs');
   const { status } = spawnSync(bin, ['--config', config, 'src'], { cwd: copy, stdio: 'inherit' });
   process.exitCode = status ?? 1;
 } finally {

@@ -9,7 +9,7 @@ const target = fileURLToPath(new URL('src/api/schema.d.ts', import.meta.url));
 const venv = `${root}.venv/bin/python`;
 const python = process.env.PYTHON ?? (existsSync(venv) ? venv : 'python3');
 
-const document = execFileSync(python, ['-m', 'waypost_server.http.openapi'], {
+const document = execFileSync(python, ['-m', 'waypost_server.openapi'], {
   cwd: root,
   maxBuffer: 64 * 2 ** 20,
 });

@@ -34,7 +34,7 @@ export interface paths {
         };
         /**
          * Get Run
-         * @description Return a run and where its money is.
+         * @description Return a run with its account.
          */
         get: operations["getRun"];
         put?: never;
@@ -44,7 +44,7 @@ export interface paths {
         head?: never;
         /**
          * Patch Run
-         * @description Rename, pause, resume or finish a run, or set its budget or priority. Finishing cancels what is still open.
+         * @description Rename, pause, resume or finish a run; set its budget or priority. Finishing a run cancels its open queries.
          */
         patch: operations["patchRun"];
         trace?: never;
@@ -60,7 +60,7 @@ export interface paths {
         put?: never;
         /**
          * Report Episodes
-         * @description Report what episodes brought. Reporting the same again changes nothing.
+         * @description Report the results of episodes. Reporting the same result again changes nothing.
          */
         post: operations["reportEpisodes"];
         delete?: never;
@@ -109,26 +109,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{run}/events": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Stream Events
-         * @description Stream what happens in a run, from a cursor on.
-         */
-        get: operations["streamEvents"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/v1/runs/{run}/queries": {
         parameters: {
             query?: never;
@@ -144,7 +124,7 @@ export interface paths {
         put?: never;
         /**
          * Ask
-         * @description Ask the expert: all of the queries or none. A query asked before is returned with its answer.
+         * @description Ask the expert: all of the queries or none. A query that was asked before is returned with its answer.
          */
         post: operations["ask"];
         delete?: never;
@@ -162,7 +142,7 @@ export interface paths {
         };
         /**
          * Get Query
-         * @description Return a query; with `wait`, as soon as it is answered or cancelled.
+         * @description Return a query; with `wait`, return as soon as it is answered or cancelled.
          */
         get: operations["getQuery"];
         put?: never;
@@ -182,7 +162,7 @@ export interface paths {
         };
         /**
          * List Answers
-         * @description Return the queries answered after a cursor, in the order of the answers; with `wait`, as soon as there is one.
+         * @description Return the queries answered after a cursor, in the order of their answers; with `wait`, wait for the first.
          */
         get: operations["listAnswers"];
         put?: never;
@@ -204,7 +184,7 @@ export interface paths {
         put?: never;
         /**
          * Use Answer
-         * @description Mark the answer as used: from now on it can be retracted no more.
+         * @description Mark the answer as used. From then on it can no longer be retracted.
          */
         post: operations["useAnswer"];
         delete?: never;
@@ -222,13 +202,13 @@ export interface paths {
         };
         /**
          * My Assignments
-         * @description List the caller's live assignments, so that a reloaded page can go on with them.
+         * @description List the caller's live assignments, so that a reloaded page can continue with them.
          */
         get: operations["myAssignments"];
         put?: never;
         /**
          * Lease
-         * @description Lease the next query, waiting for one if need be.
+         * @description Lease the next query; if there is none, wait for one.
          */
         post: operations["lease"];
         delete?: never;
@@ -248,29 +228,9 @@ export interface paths {
         put?: never;
         /**
          * Leave
-         * @description Say that a page is going: what it holds goes back, and what was under way to it is leased to nobody.
+         * @description Say that a browser tab is closing. What it holds is released, and it gets no new leases.
          */
         post: operations["leave"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/assignments/{assignment}/answer": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Answer
-         * @description Answer: stored, charged and closed in one transaction, acknowledged when it is on disk.
-         */
-        post: operations["answer"];
         delete?: never;
         options?: never;
         head?: never;
@@ -288,7 +248,7 @@ export interface paths {
         put?: never;
         /**
          * Renew
-         * @description Keep the lease: it lives from now on for its full length, up to the server's cap.
+         * @description Renew the lease: it lasts its full length from now, up to the server's cap.
          */
         post: operations["renew"];
         delete?: never;
@@ -308,9 +268,29 @@ export interface paths {
         put?: never;
         /**
          * Release
-         * @description Give the query back, unanswered; with `skip`, not to be offered it again.
+         * @description Give the query back without an answer. With `skip`, it is not offered to the caller again.
          */
         post: operations["release"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/assignments/{assignment}/answer": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Answer
+         * @description Answer. The answer is stored, charged and closed in one transaction, and acknowledged when it is on disk.
+         */
+        post: operations["answer"];
         delete?: never;
         options?: never;
         head?: never;
@@ -328,7 +308,7 @@ export interface paths {
         put?: never;
         /**
          * Retract
-         * @description Take an answer back that the learner has not used: it is refunded, and its query is leased again.
+         * @description Take back an answer that the learner has not used. It is refunded, and its query is leased again.
          */
         post: operations["retract"];
         delete?: never;
@@ -346,7 +326,7 @@ export interface paths {
         };
         /**
          * List Query Rows
-         * @description List a run's queries without their trajectories, newest first, a page at a time.
+         * @description List one page of a run's queries without their trajectories, newest first.
          */
         get: operations["listQueryRows"];
         put?: never;
@@ -366,7 +346,7 @@ export interface paths {
         };
         /**
          * List Ledger
-         * @description List a run's charges and refunds, newest first, a page at a time, with the sums of all pages.
+         * @description List one page of a run's charges and refunds, newest first, with the sums over all pages.
          */
         get: operations["listLedger"];
         put?: never;
@@ -386,7 +366,7 @@ export interface paths {
         };
         /**
          * Get History
-         * @description Return every time a query was handed out, what came of it, and what it cost.
+         * @description Return all assignments of a query, their answers, and what they cost.
          */
         get: operations["getHistory"];
         put?: never;
@@ -406,7 +386,7 @@ export interface paths {
         };
         /**
          * List At Work
-         * @description Say who is at work, in one run or in all: who asked for a query of late or holds one.
+         * @description List the annotators at work, in one run or in all: those who asked for a query recently or hold one.
          */
         get: operations["listAtWork"];
         put?: never;
@@ -437,6 +417,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Stream Events
+         * @description Stream the events of a run, starting after a cursor.
+         */
+        get: operations["streamEvents"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/events": {
         parameters: {
             query?: never;
@@ -446,7 +446,7 @@ export interface paths {
         };
         /**
          * Stream Changes
-         * @description Stream that something changed in some run, at most once a second.
+         * @description Stream a message when any run changed, at most once a second.
          */
         get: operations["streamChanges"];
         put?: never;
@@ -467,7 +467,7 @@ export interface paths {
         get?: never;
         /**
          * Put Frames
-         * @description Upload pictures of states, all of them or none; those uploaded before stay as they are.
+         * @description Upload pictures of states: all of them or none. Pictures that were uploaded before do not change.
          */
         put: operations["putFrames"];
         post?: never;
@@ -488,7 +488,7 @@ export interface paths {
         put?: never;
         /**
          * Missing Frames
-         * @description Return which of these frames have to be uploaded.
+         * @description Return the hashes of frames that are not stored yet.
          */
         post: operations["missingFrames"];
         delete?: never;
@@ -506,36 +506,12 @@ export interface paths {
         };
         /**
          * Get Frame
-         * @description Return a picture; what a hash names never changes.
+         * @description Return a picture. The picture of a hash never changes.
          */
         get: operations["getFrame"];
         put?: never;
         post?: never;
         delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/session": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Login
-         * @description Trade the one-time code of a login link for a session cookie.
-         */
-        post: operations["login"];
-        /**
-         * Logout
-         * @description End the browser's session; a token stays good until it is revoked.
-         */
-        delete: operations["logout"];
         options?: never;
         head?: never;
         patch?: never;
@@ -556,7 +532,7 @@ export interface paths {
         put?: never;
         /**
          * Create User
-         * @description Create a user: a person or a program that may call.
+         * @description Create a user: a person or a program that may call the server.
          */
         post: operations["createUser"];
         delete?: never;
@@ -586,7 +562,7 @@ export interface paths {
          * Patch User
          * @description Change a user's role, deactivate or reactivate them.
          *
-         *     Who is deactivated is signed out, their tokens and links end for good, and what they hold goes back to the queue.
+         *     Deactivation takes effect immediately: it ends the user's sessions, tokens, login links and leases. Answers stay.
          */
         patch: operations["patchUser"];
         trace?: never;
@@ -640,7 +616,7 @@ export interface paths {
         };
         /**
          * Get Numbers
-         * @description Return what a user has answered, how fast and how far right.
+         * @description Return a user's performance: number of answers, speed, accuracy on gold queries.
          */
         get: operations["getNumbers"];
         put?: never;
@@ -660,7 +636,7 @@ export interface paths {
         };
         /**
          * List Numbers
-         * @description Return the numbers of all who ever answered.
+         * @description Return the performance of every annotator who ever answered.
          */
         get: operations["listNumbers"];
         put?: never;
@@ -682,7 +658,7 @@ export interface paths {
         put?: never;
         /**
          * Create Token
-         * @description Create an API token, for oneself or, as an administrator, for anybody; it is shown this once.
+         * @description Create an API token for the caller; an administrator may create one for any user. It is shown only once.
          */
         post: operations["createToken"];
         delete?: never;
@@ -703,9 +679,33 @@ export interface paths {
         post?: never;
         /**
          * Revoke Token
-         * @description Revoke one's own token, or, as an administrator, anybody's; at once and for good.
+         * @description Revoke one of the caller's tokens; an administrator may revoke any. It takes effect immediately.
          */
         delete: operations["revokeToken"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/session": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Login
+         * @description Exchange the one-time code of a login link for a session cookie.
+         */
+        post: operations["login"];
+        /**
+         * Logout
+         * @description End the browser's session. API tokens stay valid.
+         */
+        delete: operations["logout"];
         options?: never;
         head?: never;
         patch?: never;
@@ -720,7 +720,7 @@ export interface paths {
         };
         /**
          * Me
-         * @description Say who is calling, and what they have answered. A browser's session begins its length anew with this.
+         * @description Return the caller and the totals of their answers. This call also renews a browser's session.
          */
         get: operations["me"];
         put?: never;
@@ -740,7 +740,7 @@ export interface paths {
         };
         /**
          * My Numbers
-         * @description Return what the caller has answered, how fast and how far right.
+         * @description Return the caller's performance: number of answers, speed, accuracy on gold queries.
          */
         get: operations["myNumbers"];
         put?: never;
@@ -780,14 +780,14 @@ export interface paths {
         };
         /**
          * My Sessions
-         * @description List the browsers the caller is signed in with.
+         * @description List the caller's browser sessions.
          */
         get: operations["mySessions"];
         put?: never;
         post?: never;
         /**
          * Logout Everywhere
-         * @description Sign the caller out of every browser, this one too; tokens stay good.
+         * @description End all of the caller's browser sessions, including this one. API tokens stay valid.
          */
         delete: operations["logoutEverywhere"];
         options?: never;
@@ -804,16 +804,16 @@ export interface paths {
         };
         /**
          * List Gold
-         * @description List the run's gold queries, newest first, with what annotators made of them.
+         * @description List the run's gold queries, newest first, with how well annotators answered them.
          */
         get: operations["listGold"];
         put?: never;
         /**
          * Add Gold
-         * @description Make queries gold: answered ones of this run, or others whose answers are known. All of them or none.
+         * @description Make queries gold: answered queries of this run, or other queries with known answers. All of them or none.
          *
-         *     The run's `gold_rate` says how often they are put to annotators, who cannot tell them from the learner's. They
-         *     are never in its ledger, and the learner never sees them.
+         *     The run's `gold_rate` is the share of each annotator's queries that are gold. They look like the learner's queries.
+         *     They are never in the run's ledger, and the learner never sees them.
          */
         post: operations["addGold"];
         delete?: never;
@@ -834,7 +834,7 @@ export interface paths {
         post?: never;
         /**
          * Retire Gold
-         * @description Put a gold query to nobody any more; what was answered to it stays.
+         * @description Retire a gold query: no annotator gets it any more. Answers to it stay.
          */
         delete: operations["retireGold"];
         options?: never;
@@ -851,7 +851,7 @@ export interface paths {
         };
         /**
          * Get Practice
-         * @description Return the queries to practice on, in the order to meet them.
+         * @description Return the practice queries in the order to answer them.
          */
         get: operations["getPractice"];
         put?: never;
@@ -873,7 +873,7 @@ export interface paths {
         put?: never;
         /**
          * Mark Practice
-         * @description Say how good an answer is, label by label, and why.
+         * @description Return which labels of an answer are right, and why.
          */
         post: operations["practice"];
         delete?: never;
@@ -891,7 +891,7 @@ export interface paths {
         };
         /**
          * Healthz
-         * @description Say that the process is alive.
+         * @description Return that the process is alive.
          */
         get: operations["healthz"];
         put?: never;
@@ -911,7 +911,7 @@ export interface paths {
         };
         /**
          * Readyz
-         * @description Say that the database answers and has this version's schema.
+         * @description Return that the database answers and has this version's schema.
          */
         get: operations["readyz"];
         put?: never;
@@ -3193,7 +3193,7 @@ export interface operations {
                 /** @description Words in the name, algorithm, domain or id. */
                 text?: string;
                 state?: ("running" | "paused" | "finished") | null;
-                /** @description Only these runs, by id. */
+                /** @description Only the runs with these ids. */
                 run?: string[] | null;
                 sort?: "newest" | "name" | "algorithm" | "episodes" | "success" | "cost";
                 descending?: boolean;
@@ -3597,7 +3597,7 @@ export interface operations {
     getCurves: {
         parameters: {
             query?: {
-                /** @description Only the episodes past this one. */
+                /** @description Only the episodes after this one. */
                 after?: number;
             };
             header?: never;
@@ -3682,79 +3682,6 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Costs"];
-                };
-            };
-            /** @description Log in first */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not allowed; Refused from another site */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The request is not valid */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The store failed */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    streamEvents: {
-        parameters: {
-            query?: {
-                /** @description Only events past this id; absent: only new ones. */
-                after?: number | null;
-            };
-            header?: {
-                "last-event-id"?: string | null;
-            };
-            path: {
-                run: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Server-sent events; each `data` is an Event. */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "text/event-stream": unknown;
-                    "application/json": components["schemas"]["Event"];
                 };
             };
             /** @description Log in first */
@@ -3996,7 +3923,7 @@ export interface operations {
     getQuery: {
         parameters: {
             query?: {
-                /** @description Wait so long for a change, seconds. */
+                /** @description Wait for a change at most so long, in seconds. */
                 wait?: number;
             };
             header?: never;
@@ -4067,7 +3994,7 @@ export interface operations {
         parameters: {
             query?: {
                 after?: number;
-                /** @description Wait so long for a change, seconds. */
+                /** @description Wait for a change at most so long, in seconds. */
                 wait?: number;
                 limit?: number;
             };
@@ -4289,7 +4216,7 @@ export interface operations {
                     "application/json": components["schemas"]["Assignment"];
                 };
             };
-            /** @description Nothing to do within `wait` seconds. */
+            /** @description There was no query within `wait` seconds. */
             204: {
                 headers: {
                     [name: string]: unknown;
@@ -4392,107 +4319,6 @@ export interface operations {
             };
             /** @description Not allowed; Refused from another site */
             403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The body is too large */
-            413: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Send application/json */
-            415: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The request is not valid */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The store failed */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    answer: {
-        parameters: {
-            query?: never;
-            header?: {
-                /** @description Names this attempt; sending the same again returns the same receipt. */
-                "Idempotency-Key"?: string | null;
-            };
-            path: {
-                assignment: number;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["AnswerPost"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Receipt"];
-                };
-            };
-            /** @description Log in first */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Another annotator's assignment; Not the token of this assignment */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not found */
-            404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The lease has expired; The assignment has ended; The query was cancelled; The answer was taken back; Already there with other content; Idempotency-Key already used */
-            409: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -4686,6 +4512,107 @@ export interface operations {
                 };
             };
             /** @description The lease has expired; The assignment has ended */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    answer: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Names this attempt. Sending the same attempt again returns the same receipt. */
+                "Idempotency-Key"?: string | null;
+            };
+            path: {
+                assignment: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AnswerPost"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Receipt"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Another annotator's assignment; Not the token of this assignment */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The lease has expired; The assignment has ended; The query was cancelled; The answer was taken back; Already there with other content; Idempotency-Key already used */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -5139,7 +5066,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description The table, a row a line. */
+            /** @description The table, one row per line. */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -5147,6 +5074,79 @@ export interface operations {
                 content: {
                     "text/csv": unknown;
                     "application/jsonl": unknown;
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    streamEvents: {
+        parameters: {
+            query?: {
+                /** @description Only events after this id; without it, only new events. */
+                after?: number | null;
+            };
+            header?: {
+                "last-event-id"?: string | null;
+            };
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Server-sent events; each `data` is an Event. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/event-stream": unknown;
+                    "application/json": components["schemas"]["Event"];
                 };
             };
             /** @description Log in first */
@@ -5448,147 +5448,6 @@ export interface operations {
             };
             /** @description Not found */
             404: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The request is not valid */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The store failed */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    login: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["Login"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Me"];
-                };
-            };
-            /** @description Log in first; The login link was used before; The login link is too old; The account is deactivated */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Refused from another site */
-            403: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The body is too large */
-            413: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Send application/json */
-            415: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The request is not valid */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Too many attempts */
-            429: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description The store failed */
-            503: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    logout: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            204: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content?: never;
-            };
-            /** @description Log in first */
-            401: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not allowed; Refused from another site */
-            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -6346,6 +6205,147 @@ export interface operations {
             };
             /** @description Not found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    login: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Login"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Me"];
+                };
+            };
+            /** @description Log in first; The login link was used before; The login link is too old; The account is deactivated */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many attempts */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    logout: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };

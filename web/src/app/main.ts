@@ -1,6 +1,6 @@
 // Starts the page.
 import { mount } from 'svelte';
-import '../style/base.css';
+import '../ui/style/base.css';
 import App from './App.svelte';
 
 const target = document.getElementById('app');

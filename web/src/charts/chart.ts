@@ -1,7 +1,7 @@
 // A chart as plain values: marks, axes, paths and readings. Chart.svelte draws it as SVG; the download is the same SVG.
 import { scaleLinear } from 'd3-scale';
 import { area, curveLinear, curveStepAfter, line, type CurveFactory } from 'd3-shape';
-import { SUBGOAL_COLORS } from '../style/subgoals';
+import { SUBGOAL_COLORS } from '../ui/style/subgoals';
 
 /** What distinguishes a series: its color and, for people who cannot see the color, its dashes and marker. */
 export interface Mark {

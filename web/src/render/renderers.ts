@@ -1,7 +1,7 @@
 // The renderers, by the name in the vocabulary of a run. A new renderer is added here.
 import type { Component } from 'svelte';
-import MazeView from '../maze/MazeView.svelte';
-import { stepMaze } from '../maze/steps';
+import MazeView from './maze/MazeView.svelte';
+import { stepMaze } from './maze/steps';
 import PictureView from './PictureView.svelte';
 import type { Scene, Step } from '../player/scene';
 

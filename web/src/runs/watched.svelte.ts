@@ -1,7 +1,7 @@
 // A run that is kept up to date while it is on the screen.
 import { api, Refused, TRYING_AGAIN, unwrap, wordsOf } from '../api/client';
 import type { Costs, Curves, Run } from '../api/types';
-import { updatedCurves } from '../curves/curves';
+import { updatedCurves } from './curves/curves';
 import { throttled, watch, type RunEvent } from '../api/live';
 
 const REFRESH_MS = 1_000;

@@ -1,13 +1,13 @@
 // The state of one query on the screen, and what every key does.
 import type { Answer, Answerable, Vocabulary } from '../api/types';
 import { bindingsFor, type Command } from '../keys/registry';
-import { answerOf, choose, EDITS, HINTS, moveTo, newLabels, type Labels } from '../labels/labels';
-import { markFirstWrong, type LoLabels } from '../labels/lo';
+import { answerOf, choose, EDITS, HINTS, moveTo, newLabels, type Labels } from './labels/labels';
+import { markFirstWrong, type LoLabels } from './labels/lo';
 import { MOVES } from '../player/commands';
 import * as players from '../player/player';
 import { askedFrames, buildTape, lastFrame, stops, stretchAt } from '../player/tape';
 import type { Label, Scene } from '../player/scene';
-import { draftOf, keepDraft } from '../labels/drafts';
+import { draftOf, keepDraft } from './labels/drafts';
 
 export interface TaskOptions {
   readonly ask: Answerable;

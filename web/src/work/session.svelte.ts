@@ -1,6 +1,6 @@
 // One annotator at work: leases queries, keeps the leases, sends the answers.
-import type { AnswerSender } from '../answers/sender';
-import type { PendingAnswer } from '../answers/outbox';
+import type { AnswerSender } from './answers/sender';
+import type { PendingAnswer } from './answers/outbox';
 import { isAborted, Refused, Unreachable, wordsOf } from '../api/client';
 import { delay, pause, visible } from '../api/retry';
 import type { Answer, Assignment, Me } from '../api/types';

@@ -1,6 +1,6 @@
 // @vitest-environment happy-dom
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { AnswerSender, type SendAnswer } from '../answers/sender';
+import { AnswerSender, type SendAnswer } from './answers/sender';
 import { Refused, Unreachable } from '../api/client';
 import type { Assignment, LeaseRequest, Me, Receipt } from '../api/types';
 import type { LeaseProof, WorkServer } from './server';

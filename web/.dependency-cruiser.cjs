@@ -1,0 +1,54 @@
+// The layers of src/, checked by `npm run layers`: no circular imports, and a folder imports only from layers below.
+
+/** From the bottom to the top. Folders of one layer do not import each other. */
+const LAYERS = [
+  ['api', 'router', 'ui/style'], // the server's REST API and events; addresses; colors, sizes and themes
+  ['keys'], // the one list of keys, and what a key press means
+  ['ui'], // components and formats of every view; who is signed in
+  ['charts', 'player', 'task/labels'], // charts; a trajectory as frames, played; editors of labels
+  ['render/maze'], // the maze on a canvas
+  ['render'], // what draws a state: the renderer of a domain, else pictures or text
+  ['runs/curves', 'runs/queries', 'task', 'work/answers'], // learning curves; queries and ledger; one query to answer; sending
+  ['play'], // a demonstration, played in the page
+  ['people', 'practice', 'runs', 'runs/gold', 'work'], // the views
+  ['app'], // the frame of the page; it chooses the view
+];
+
+/** The files directly in these folders. */
+const inFolders = (folders) => `^src/(${folders.join('|')})/[^/]+$`;
+
+module.exports = {
+  forbidden: [
+    {
+      name: 'no-circular-imports',
+      severity: 'error',
+      from: {},
+      to: { circular: true },
+    },
+    {
+      name: 'every-folder-has-a-layer',
+      severity: 'error',
+      from: { path: '^src/', pathNot: inFolders(LAYERS.flat()) },
+      to: {},
+    },
+    ...LAYERS.flatMap((folders, layer) =>
+      folders.map((folder) => ({
+        name: `${folder.replace('/', '-')}-imports-only-from-below`,
+        severity: 'error',
+        from: { path: inFolders([folder]) },
+        to: { path: '^src/', pathNot: inFolders([folder, ...LAYERS.slice(0, layer).flat()]) },
+      })),
+    ),
+    {
+      name: 'every-import-is-found',
+      severity: 'error',
+      from: {},
+      to: { couldNotResolve: true, path: '^\\.' },
+    },
+  ],
+  options: {
+    doNotFollow: { path: 'node_modules' },
+    tsPreCompilationDeps: true, // imports of types count, too
+    enhancedResolveOptions: { extensions: ['.ts', '.d.ts', '.js'] },
+  },
+};

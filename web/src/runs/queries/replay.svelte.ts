@@ -1,0 +1,85 @@
+// The replay of a query: its trajectory in the player, with the labels of its answer.
+import type { Answer, Query, Run, Segment } from '../../api/types';
+import type { Command } from '../../keys/registry';
+import { MOVES } from '../../player/commands';
+import * as players from '../../player/player';
+import { askedFrames, buildTape, lastFrame, stops, stretchAt, type Tape } from '../../player/tape';
+import type { Label, Scene, Step } from '../../player/scene';
+
+/** A query in the player, to be watched. */
+export class Replay {
+  readonly tape: Tape;
+  player = $state.raw(players.player(0, 0));
+  readonly scene: Scene = $derived.by(() => this.#scene());
+
+  readonly #query: Query;
+  readonly #run: Run;
+  readonly #stops: readonly number[];
+  readonly #labels: readonly Label[];
+
+  /** `step` computes the next state, in domains where the page can. */
+  constructor(query: Query, run: Run, step: Step | null) {
+    this.#query = query;
+    this.#run = run;
+    this.tape = tapeOf(query, step);
+    this.#stops = stops(this.tape);
+    this.#labels = labelsOf(query.answer, this.tape);
+    const begin = players.player(this.tape.start, lastFrame(this.tape));
+    this.player = players.seek(begin, begin.last);
+  }
+
+  /** Milliseconds per frame while playing. */
+  get pace(): number {
+    return 1000 / players.framesPerSecond(this.player, false);
+  }
+
+  tick(frames: number): void {
+    this.player = players.advance(this.player, frames);
+  }
+
+  seek(frame: number): void {
+    this.player = players.seek(this.player, frame);
+  }
+
+  run(command: Command): void {
+    const move = MOVES[command];
+    if (move) this.player = move(this.player, this.#stops);
+  }
+
+  #scene(): Scene {
+    return {
+      instance: this.#query.ask.instance,
+      tape: this.tape,
+      vocabulary: this.#run.vocabulary,
+      at: this.player.at,
+      current: stretchAt(this.tape, this.player.at)?.index ?? null,
+      labels: this.#labels,
+    };
+  }
+}
+
+/** Return the learner's trajectory; of a demonstration, the annotator's, or only its start if states cannot be computed. */
+export function tapeOf({ ask, answer }: Pick<Query, 'ask' | 'answer'>, step: Step | null): Tape {
+  if (ask.kind !== 'hier_demo') return buildTape(ask.context, ask.segments);
+  const start: Segment = { subgoal: null, states: [ask.state], actions: [], frames: [] };
+  if (answer?.kind !== 'hier_demo' || step === null) return buildTape(ask.context, [start]);
+  let state = ask.state;
+  const segments = answer.segments.map(({ subgoal, actions }): Segment => {
+    const states = [state];
+    for (const action of actions) states.push((state = step(state, action)));
+    return { subgoal, states, actions, frames: [] };
+  });
+  return buildTape(ask.context, segments);
+}
+
+/** Return the labels of the answer, as a renderer draws them. */
+export function labelsOf(answer: Answer | null, tape: Tape): Label[] {
+  if (answer === null || (answer.kind !== 'label_lo' && answer.kind !== 'label_full')) return [];
+  const frames = askedFrames(tape);
+  const end = answer.kind === 'label_lo' ? answer.terminations.indexOf(true) : -1;
+  const until = end < 0 ? answer.actions.length : end;
+  const labels = answer.actions
+    .slice(0, until)
+    .flatMap((action, state) => (action === null ? [] : [{ frame: frames[state] ?? 0, action }]));
+  return end < 0 ? labels : [...labels, { frame: frames[end] ?? 0, action: null }];
+}

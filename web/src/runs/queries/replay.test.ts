@@ -1,0 +1,38 @@
+import { describe, expect, it } from 'vitest';
+import type { Query } from '../../api/types';
+import { stepMaze } from '../../render/maze/steps';
+import { buildTape } from '../../player/tape';
+import { labelsOf, tapeOf } from './replay.svelte';
+
+describe('the replay of a query', () => {
+  const segment = { subgoal: 'north', states: [0, 1, 2, 3], actions: ['up', 'up', 'left'], frames: [] };
+
+  it('shows where the segment should have ended, and no label after that', () => {
+    const labels = labelsOf(
+      { kind: 'label_lo', actions: ['up', 'down', null], terminations: [false, false, true, false] },
+      buildTape([], [segment]),
+    );
+    expect(labels).toEqual([
+      { frame: 0, action: 'up' },
+      { frame: 1, action: 'down' },
+      { frame: 2, action: null },
+    ]);
+  });
+
+  it('shows a demonstration where the page can compute steps, and only its start elsewhere', () => {
+    const ask = { kind: 'hier_demo', context: [], state: [5, 2] } as unknown as Query['ask'];
+    const segments = [
+      { subgoal: 'north', actions: ['up', 'up'] },
+      { subgoal: 'east', actions: ['right'] },
+    ];
+    const query = { ask, answer: { kind: 'hier_demo', segments } } as const;
+    expect(tapeOf(query, stepMaze).frames).toEqual([
+      [5, 2],
+      [4, 2],
+      [3, 2],
+      [3, 3],
+    ]);
+    expect(tapeOf(query, null).frames).toEqual([[5, 2]]);
+    expect(tapeOf({ ask, answer: null }, stepMaze).frames).toEqual([[5, 2]]);
+  });
+});

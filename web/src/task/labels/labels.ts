@@ -1,0 +1,57 @@
+// The editor of any kind of label, and what the keys do in it.
+import type { Answer, Answerable, Vocabulary } from '../../api/types';
+import type { Command } from '../../keys/registry';
+import * as hi from './hi';
+import * as lo from './lo';
+
+/** The labels of a query; an inspection has none. */
+export type Labels = hi.HiLabels | lo.LoLabels;
+
+export function newLabels(ask: Answerable): Labels | null {
+  switch (ask.kind) {
+    case 'label_hi':
+      return hi.hiLabels(ask);
+    case 'label_lo':
+    case 'label_full':
+      return lo.loLabels(ask);
+    default:
+      return null;
+  }
+}
+
+export function answerOf(labels: Labels | null): Answer | null {
+  if (labels === null) return null;
+  return labels.kind === 'label_hi' ? hi.hiAnswer(labels) : lo.loAnswer(labels);
+}
+
+/** Label with the subgoal or action at a place in the vocabulary. */
+export function choose(labels: Labels, index: number, vocabulary: Vocabulary): Labels {
+  const isHi = labels.kind === 'label_hi';
+  const name = (isHi ? vocabulary.subgoals : vocabulary.actions)[index];
+  if (name === undefined) return labels;
+  return isHi ? hi.setSubgoal(labels, name) : lo.setAction(labels, name);
+}
+
+export function moveTo(labels: Labels, index: number): Labels {
+  return labels.kind === 'label_hi' ? hi.moveTo(labels, index) : lo.moveTo(labels, index);
+}
+
+/** The edits of the keys. */
+export const EDITS: Partial<Record<Command, (labels: Labels) => Labels>> = {
+  accept: (labels) => (labels.kind === 'label_hi' ? hi.acceptSubgoal(labels) : lo.acceptState(labels)),
+  'accept-rest': (labels) =>
+    labels.kind === 'label_hi' ? hi.acceptRemaining(labels) : lo.acceptRest(labels),
+  clear: (labels) => (labels.kind === 'label_hi' ? hi.clearLast(labels) : lo.clearLast(labels)),
+  done: (labels) => (labels.kind === 'label_hi' ? labels : lo.setDone(labels)),
+  'not-done': (labels) => (labels.kind === 'label_hi' ? labels : lo.setNotDone(labels)),
+  'first-wrong': (labels) => (labels.kind === 'label_hi' ? labels : lo.markFirstWrong(labels, labels.cursor)),
+  'previous-segment': (labels) => moveTo(labels, labels.cursor - 1),
+  'next-segment': (labels) => moveTo(labels, labels.cursor + 1),
+};
+
+/** The hints that say why an edit changed nothing. */
+export const HINTS: Partial<Record<Command | 'choose', string>> = {
+  accept: 'There is nothing to keep: the learner made no choice here.',
+  'not-done': '“Not done” is for the last state only. At other states, choose an action.',
+  choose: 'The last state needs no action. Choose “Done here” or “Not done”.',
+};
