@@ -162,6 +162,9 @@ def run_all(
 
     Returns:
         the trajectories, in the order of `rollouts`.
+
+    Raises:
+        KeyError: a rollout consults a policy that is not in `policies`.
     """
     results: dict[int, Trajectory] = {}
     waiting: dict[int, Consult] = {}
@@ -176,6 +179,9 @@ def run_all(
     for i, rollout in enumerate(rollouts):
         advance(i, partial(next, rollout))
     while waiting:
+        unknown = {consult.policy for consult in waiting.values()} - policies.keys()
+        if unknown:
+            raise KeyError(f"rollouts consult policies that are not given: {unknown}")
         for key, policy in policies.items():
             due = [i for i, consult in waiting.items() if consult.policy == key]
             if not due:

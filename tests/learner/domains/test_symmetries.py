@@ -7,18 +7,20 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.learner.kit import TINY, drawn_mazes, examples, mazes, reachable_cells
+from tests.learner.kit import TINY, drawn_mazes, examples, mazes, random_labels, reachable_cells
 
 from waypost.domain import Domain, Symmetry
-from waypost_learner.algorithms.learner import Learner, Structure
+from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import CELLS, Corridor, CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.env import MazeEnv
 from waypost_learner.domains.maze.maze import Cell, Maze
 from waypost_learner.domains.maze.symmetries import symmetries
-from waypost_learner.policies.datasets import UNLABELED, Labels, Row
+from waypost_learner.policies.datasets import UNLABELED, Row
+from waypost_learner.policies.labels import Labels, transformed_rows, transformed_transitions
+from waypost_learner.policies.levels import Levels
 from waypost_learner.rollout.experience import Transition
-from waypost_learner.rollout.policy_keys import META
+from waypost_learner.rollout.policy_keys import META, pi
 
 oracle = MazeDomain().oracle
 
@@ -83,21 +85,21 @@ def test_the_corridors_expert_says_the_same_of_the_mirrored_corridor(cell: int, 
         assert [symmetry.subgoals[g] for g in here] == list(domain.oracle.good_subgoals({"target": goal}, there))
 
 
-def test_labels_seen_through_a_symmetry_go_to_the_changed_subgoals_policy() -> None:
+def test_rows_in_a_symmetry_go_to_the_changed_subgoals_policy() -> None:
     quarter = symmetries()[0]  # counterclockwise: north becomes west
     observation = seen(Maze(np.zeros((17, 17), bool), (1, 3), (5, 5)), (1, 3))
-    labels = Labels({META: [Row(observation, 0)], 0: [Row(observation, 3, 1), Row(observation, UNLABELED, 0)]})
-    turned = labels.seen_through(quarter)
-    assert turned.rows.keys() == {META, 2}
-    assert [row.choice for row in turned.rows[META]] == [2]
-    assert [(row.choice, row.termination) for row in turned.rows[2]] == [(0, 1), (UNLABELED, 0)]
-    assert np.argwhere(turned.rows[2][0].observation[0]).tolist() == [[13, 1]]
+    rows = {META: [Row(observation, 0)], pi(0): [Row(observation, 3, 1), Row(observation, UNLABELED, 0)]}
+    turned = transformed_rows(rows, quarter)
+    assert turned.keys() == {META, pi(2)}
+    assert [row.choice for row in turned[META]] == [2]
+    assert [(row.choice, row.termination) for row in turned[pi(2)]] == [(0, 1), (UNLABELED, 0)]
+    assert np.argwhere(turned[pi(2)][0].observation[0]).tolist() == [[13, 1]]
 
 
 def test_a_preset_decides_whether_a_learner_sees_its_labels_through_the_symmetries() -> None:
-    labels = Labels({META: [Row(np.zeros((3, 17, 17), np.float32), 1)]})
+    labels = random_labels(0, (3, 17, 17), [META], n=1)
     for symmetric, rows in ((False, 1), (True, 8)):
-        preset = replace(TINY, symmetries=symmetric)
+        preset = TINY.with_values(symmetries=symmetric)
         learner = Learner(MazeDomain(), preset, seed=0, threads=1)
         learner.learn(labels)
         assert len(learner.data[META]) == rows
@@ -109,10 +111,9 @@ def test_experience_seen_through_a_symmetry_is_of_the_turned_subgoal_and_the_tur
     symmetry: Symmetry, subgoal: int, action: int
 ) -> None:
     before, after = (np.random.default_rng(n).random((3, 17, 17)).astype(np.float32) for n in range(2))
-    labels = Labels(transitions={subgoal: [Transition(before, action, 0.5, after, 1)]})
-    (key,) = labels.seen_through(symmetry).transitions
-    (seen,) = labels.seen_through(symmetry).transitions[key]
-    assert (key, seen.choice) == (symmetry.subgoals[subgoal], symmetry.actions[action])
+    transitions = {pi(subgoal): [Transition(before, action, 0.5, after, 1)]}
+    ((key, (seen,)),) = transformed_transitions(transitions, symmetry).items()
+    assert (key.subgoal, seen.choice) == (symmetry.subgoals[subgoal], symmetry.actions[action])
     assert (seen.reward, seen.steps) == (0.5, 1)
     assert (seen.observation == symmetry.observe(before)).all()
     assert (seen.next_observation == symmetry.observe(after)).all()
@@ -122,8 +123,10 @@ def test_experience_seen_through_a_symmetry_is_of_the_turned_subgoal_and_the_tur
 def test_a_preset_decides_whether_q_functions_see_their_experience_through_the_symmetries(
     symmetric: bool, rows: int
 ) -> None:
-    preset = replace(TINY, dqn=replace(TINY.dqn, symmetries=symmetric))
-    learner = Learner(MazeDomain(), preset, seed=0, structure=Structure(q_lo=True), threads=1)
+    preset = TINY.with_values(dqn=replace(TINY.training.dqn, symmetries=symmetric))
+    learner = Learner(MazeDomain(), preset, seed=0, levels=Levels(q_lo=True), threads=1)
     picture = np.zeros((3, 17, 17), np.float32)
-    learner.learn(Labels(transitions={0: [Transition(picture, 0, 0.0, picture, 1)]}))
+    labels = Labels()
+    labels.append_experience(pi(0), [Transition(picture, 0, 0.0, picture, 1)])
+    learner.learn(labels)
     assert sum(len(q.replay) for q in learner.q.values()) == rows

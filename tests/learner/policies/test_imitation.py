@@ -6,15 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 import torch
-from tests.learner.kit import TINY
+from tests.learner.kit import TINY, TINY_TRAIN, random_labels, segment
 
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
-from waypost_learner.policies.datasets import UNLABELED, Dataset, Labels, Row
+from waypost_learner.policies.datasets import UNLABELED, Dataset, Row
 from waypost_learner.policies.imitation import Policy, TrainSpec
+from waypost_learner.policies.labels import Labels, LoLabels
 from waypost_learner.policies.networks import NetworkSpec, build_network
-from waypost_learner.rollout.policy_keys import META
+from waypost_learner.rollout.policy_keys import META, pi
 from waypost_learner.runs.checkpoints import weights_hash
 
 SPEC = TrainSpec(learning_rate=5e-3, batch=16, passes=2, least=256, most=640, dropout=0.0)
@@ -129,14 +130,7 @@ def test_a_policy_says_the_same_of_a_state_alone_and_in_a_batch_also_after_train
 
 
 def maze_labels(seed: int) -> Labels:
-    rng = np.random.default_rng(seed)
-    labels = Labels()
-    for key in (META, 0, 1, 2, 3, 4):
-        labels.rows[key] = [
-            Row(rng.normal(size=(3, 17, 17)).astype(np.float32), int(rng.integers(4)), 0 if key >= 0 else UNLABELED)
-            for _ in range(40)
-        ]
-    return labels
+    return random_labels(seed, (3, 17, 17), [META, *map(pi, range(5))], n=40, choices=4)
 
 
 def trained_hash(threads: int, seed: int = 0) -> str:
@@ -159,19 +153,18 @@ def test_another_seed_gives_other_weights() -> None:
 def test_policies_whose_buffer_did_not_grow_are_not_trained() -> None:
     learner = Learner(CorridorDomain(), TINY, seed=0, threads=1)
     before = {key: weights(one) for key, one in learner.policies.items()}
-    labels = Labels()
-    labels.rows[1] = [Row(np.zeros(26, np.float32), 0)]
-    labels.rows[2] = []
+    labels = random_labels(0, (26,), [pi(1)])
+    labels.append_lo(segment(2, n_actions=1), LoLabels((None,), (True, False)))  # gives no row
     learner.learn(labels)
     changed = {key for key, one in learner.policies.items() if not all(equal(before[key], weights(one)))}
-    assert changed == {1}
+    assert changed == {pi(1)}
 
 
 def test_policies_that_train_every_episode_do_so_without_new_labels_too() -> None:
     learner = Learner(
-        CorridorDomain(), replace(TINY, train_hi=replace(TINY.train_hi, every_episode=True)), 0, threads=1
+        CorridorDomain(), TINY.with_values(train_hi=replace(TINY_TRAIN, every_episode=True)), 0, threads=1
     )
-    learner.learn(Labels({META: [Row(np.zeros(26, np.float32), 0)], 1: [Row(np.zeros(26, np.float32), 0)]}))
+    learner.learn(random_labels(0, (26,), [META, pi(1)]))
     before = {key: weights(one) for key, one in learner.policies.items()}
     learner.learn(Labels())
     changed = {key for key, one in learner.policies.items() if not all(equal(before[key], weights(one)))}
@@ -209,10 +202,10 @@ def test_dropout_is_on_in_training_alone() -> None:
 
 
 @pytest.mark.parametrize("idle", [0, 32])
-def test_policies_train_on_by_the_rows_of_their_preset(idle: int) -> None:
+def test_policies_train_idle_by_the_rows_of_their_preset(idle: int) -> None:
     trained = policy(spec=replace(SPEC, idle=idle))
     before = weights(trained)
-    trained.train_on(data(50))
+    trained.train_idle(data(50))
     assert all(equal(before, weights(trained))) == (idle == 0)
 
 
@@ -225,18 +218,18 @@ def test_numbers_with_which_nothing_could_be_trained_are_refused(number: dict[st
         TrainSpec(**number)
 
 
-def test_policies_train_on_once_after_an_episode_and_only_those_it_taught() -> None:
+def test_policies_train_idle_once_after_an_episode_and_only_those_it_taught() -> None:
     domain = CorridorDomain()
-    spec = replace(TINY.train_lo, idle=32)
-    learner = Learner(domain, replace(TINY, train_hi=spec, train_lo=spec), seed=0, threads=1)
+    spec = replace(TINY_TRAIN, idle=32)
+    learner = Learner(domain, TINY.with_values(train_hi=spec, train_lo=spec), seed=0, threads=1)
     sigma = learner.roll_out(learner.start(domain.instances("random").train[0], 0))
     labels = Labels()
     labels.append_hi(sigma, [0 for _ in sigma])
     learner.learn(labels)
     learned = {key: weights(one) for key, one in learner.imitators.items()}
-    learner.train_on()
+    learner.train_idle()
     once = {key: weights(one) for key, one in learner.imitators.items()}
-    learner.train_on()
+    learner.train_idle()
     assert not all(equal(learned[META], once[META]))
     for key, one in learner.imitators.items():
         assert all(equal(once[key], weights(one)))

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from pydantic import TypeAdapter
-from tests.learner.test_oracle_expert import (
+from tests.learner.experts.test_oracle_expert import (
     EAST,
     RIGHT,
     UP,
@@ -27,7 +27,7 @@ from waypost_learner.cli import app
 from waypost_learner.experts.gold import make_gold
 from waypost_learner.experts.practice import practice
 from waypost_learner.experts.solutions import solve
-from waypost_learner.runs.training import embedded
+from waypost_learner.remote.embedded import embedded
 from waypost_server.gold import scoring
 from waypost_server.gold.practice import SHIPPED, PracticeSet
 
@@ -64,7 +64,7 @@ def test_a_segment_should_end_where_its_subgoal_is_reached():
 
 
 def test_a_demonstration_is_not_known_beforehand():
-    with pytest.raises(ValueError, match="many are as good"):
+    with pytest.raises(ValueError, match="many are equally good"):
         solve(domain, ask("hier_demo", two_rooms()))
 
 

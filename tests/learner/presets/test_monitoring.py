@@ -16,7 +16,8 @@ from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.presets import find_preset
 from waypost_learner.presets.monitoring import EVERY_EPISODE, Monitoring
 from waypost_learner.runs.config import TrainConfig
-from waypost_learner.runs.training import build_learner, train
+from waypost_learner.runs.setup import set_up
+from waypost_learner.runs.training import train
 
 KNOWN_AT_ONCE = "monitoring.rate=0.5 monitoring.confidence=0.5"  # after one pass
 SOON = "monitoring.rate=0.5 monitoring.confidence=0.75"  # after two
@@ -56,7 +57,7 @@ def test_what_is_no_share_and_no_rate_is_refused(values: str) -> None:
 )
 def test_monitoring_is_refused_where_nothing_is_monitored(values: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match="is for hg-dagger, hg-stagger, flat-dagger, without"):
-        build_learner(corridor(values="monitoring.share=0.5", **values), threads=1)
+        set_up(corridor(values="monitoring.share=0.5", **values), threads=1)
 
 
 def asked_and_reported(path: Path, config: TrainConfig) -> tuple[dict[int, list[Any]], list[wire.EpisodeResult]]:

@@ -10,7 +10,7 @@ from waypost.trajectory import Segment, Trajectory
 from waypost_learner.algorithms.queries import HierDemo, InspectFull, InspectLo, LabelFull, LabelHi, LabelLo
 from waypost_learner.domains.corridor import Corridor, CorridorDomain
 from waypost_learner.experts.oracle import OracleExpert
-from waypost_learner.policies.datasets import LoLabels
+from waypost_learner.policies.labels import LoLabels
 from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
 from waypost_server.queries import checks

@@ -1,6 +1,5 @@
 """Checkpoints hold all of a learner, are never torn, and are refused with a sentence when they are none."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,15 +8,16 @@ import torch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from safetensors.torch import load_file, save_file
-from tests.learner.kit import TINY
+from tests.learner.kit import TINY, random_labels
 
 from waypost.domain import Domain
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
-from waypost_learner.policies.datasets import UNLABELED, Labels, Row
+from waypost_learner.policies.datasets import Row
+from waypost_learner.policies.labels import Labels
 from waypost_learner.policies.networks import NetworkSpec
-from waypost_learner.rollout.policy_keys import META
+from waypost_learner.rollout.policy_keys import META, pi
 from waypost_learner.runs import checkpoints
 from waypost_learner.runs.checkpoints import Header, weights_hash
 from waypost_learner.runs.config import Progress, TrainConfig
@@ -33,14 +33,7 @@ def learner(seed: int = 0, domain: Domain = CORRIDOR) -> Learner:
 
 
 def labels(episode: int, domain: Domain = CORRIDOR) -> Labels:
-    rng = np.random.default_rng(episode)
-    taught = Labels()
-    for key in (META, 0, 2):
-        terminations = [UNLABELED if key == META else int(rng.integers(2)) for _ in range(5)]
-        taught.rows[key] = [
-            Row(rng.random(domain.observation_shape).astype(np.float32), int(rng.integers(2)), t) for t in terminations
-        ]
-    return taught
+    return random_labels(episode, domain.observation_shape, [META, pi(0), pi(2)])
 
 
 def trained(episodes: int, seed: int = 0, domain: Domain = CORRIDOR) -> Learner:
@@ -74,17 +67,11 @@ def test_a_policy_that_never_learned_anything_is_restored_too(path: Path) -> Non
     checkpoints.write(path, trained(2), HEADER, weights_only=False)
     resumed = learner(seed=99)
     checkpoints.load(path, resumed)
-    assert len(resumed.data[1]) == 0
-    resumed.learn(only(1))
+    assert len(resumed.data[pi(1)]) == 0
+    resumed.learn(random_labels(9, (26,), [pi(1)]))
     uninterrupted = trained(2)
-    uninterrupted.learn(only(1))
+    uninterrupted.learn(random_labels(9, (26,), [pi(1)]))
     assert weights_hash(resumed) == weights_hash(uninterrupted)
-
-
-def only(key: int) -> Labels:
-    taught = Labels()
-    taught.rows[key] = [Row(np.ones(26, np.float32), 1, 0)]
-    return taught
 
 
 def test_weights_alone_are_enough_to_act_as_before(path: Path) -> None:
@@ -94,7 +81,7 @@ def test_weights_alone_are_enough_to_act_as_before(path: Path) -> None:
     checkpoints.load(path, restored)
     assert weights_hash(restored) == weights_hash(original)
     seen = np.random.default_rng(0).random((4, 26)).astype(np.float32)
-    np.testing.assert_array_equal(restored.policies[0](seen).logits, original.policies[0](seen).logits)
+    np.testing.assert_array_equal(restored.policies[pi(0)](seen).logits, original.policies[pi(0)](seen).logits)
 
 
 def test_a_final_checkpoint_is_smaller_than_one_to_go_on_from(path: Path) -> None:
@@ -169,7 +156,7 @@ def test_a_folder_is_refused_with_a_sentence(tmp_path: Path) -> None:
 
 def test_a_checkpoint_of_other_networks_is_refused_with_a_sentence(path: Path) -> None:
     checkpoints.write(path, learner(), HEADER, weights_only=True)
-    larger = replace(TINY, network=NetworkSpec((4,), 99))
+    larger = TINY.with_values(network=NetworkSpec((4,), 99))
     with pytest.raises(ValueError, match="does not fit"):
         checkpoints.load(path, Learner(CorridorDomain(), larger, 0, threads=1))
 
@@ -195,5 +182,5 @@ def test_the_hash_changes_with_any_single_weight() -> None:
 
 def test_the_hash_depends_on_the_weights_alone() -> None:
     one, other = learner(), learner()
-    other.data[0].append([Row(np.zeros(26, np.float32), 1)])
+    other.data[pi(0)].append([Row(np.zeros(26, np.float32), 1)])
     assert weights_hash(one) == weights_hash(other)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.learner.figures_kit import marked, published_runs, results_of, run_of
+from tests.learner.experiments.figures_kit import marked, published_runs, results_of, run_of
 from tests.learner.kit import corridor, examples
 
 from waypost_learner.experiments import plan

@@ -37,7 +37,8 @@ from waypost_learner.experiments.theory.classes import N_ACTIONS, N_POSITIONS, C
 from waypost_learner.experiments.theory.halving import Product, Simple, VersionSpace
 from waypost_learner.experiments.theory.simulation import Episodes, HalvingLearner, PricedExpert, simulate
 from waypost_learner.experiments.theory.task import Task, observed
-from waypost_learner.policies.datasets import Labels, Row
+from waypost_learner.policies.datasets import Row
+from waypost_learner.policies.labels import Labels
 from waypost_learner.rollout.policy_keys import FLAT, META
 
 SMALL = (Cell(2, 2, 8, 4, 2), Cell(3, 2, 5, 3, 3))

@@ -21,10 +21,11 @@ from waypost_learner.algorithms.queries import HierDemo
 from waypost_learner.domains.corridor import Corridor, CorridorDomain
 from waypost_learner.experts.bot import Bot, BotSettings
 from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.remote.connection import Connection
 from waypost_learner.remote.stage import Stage, offer
 from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
-from waypost_learner.runs.training import Connection, RunOptions, train
+from waypost_learner.runs.training import RunOptions, train
 from waypost_server import serving
 from waypost_server.settings import Settings
 from waypost_server.users import service as users

@@ -22,8 +22,8 @@ from waypost_learner.experiments import plan
 from waypost_learner.experiments.figures import archive
 from waypost_learner.experiments.figures.data import KINDS, RunCurves
 from waypost_learner.experiments.sweep import Place, Progress, name_of, sweep
+from waypost_learner.remote.embedded import embedded
 from waypost_learner.runs.config import TrainConfig
-from waypost_learner.runs.training import embedded
 from waypost_server import serving
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
@@ -185,7 +185,7 @@ def test_the_command_lists_algorithms_domains_and_presets_that_exist(tmp_path: P
 
 
 def test_every_figure_is_made_of_runs_that_can_be_built() -> None:
-    from waypost_learner.runs.training import build_learner
+    from waypost_learner.runs.setup import build_learner
 
     runs = plan.runs_of(plan.find_figure("maze"), seeds=(0,))
     assert len(set(runs)) == len(runs) > 10

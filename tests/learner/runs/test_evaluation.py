@@ -3,10 +3,11 @@
 import pytest
 from tests.learner.kit import TINY
 
-from waypost_learner.algorithms.learner import TEST, Learner
+from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import Corridor, CorridorDomain
 from waypost_learner.rollout.rollout import run
 from waypost_learner.rollout.simulator import Simulator
+from waypost_learner.rollout.streams import TEST
 from waypost_learner.runs import evaluation
 from waypost_learner.runs.evaluation import Evaluation, evaluate
 

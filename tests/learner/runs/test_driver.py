@@ -21,11 +21,12 @@ from waypost_learner.experts.bot import Bot, BotSettings
 from waypost_learner.experts.head_start import head_start
 from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.policies.imitation import Policy
+from waypost_learner.remote.connection import Connection
 from waypost_learner.remote.translation import vocabulary
 from waypost_learner.rollout.simulator import Simulator
 from waypost_learner.runs.checkpoints import read_header
 from waypost_learner.runs.config import TrainConfig
-from waypost_learner.runs.training import Connection, train
+from waypost_learner.runs.training import train
 
 
 class OutOfOrder:
@@ -87,13 +88,13 @@ def test_with_three_episodes_in_flight_the_run_is_the_same_whatever_order_the_an
 
 @pytest.mark.parametrize("in_flight", [1, 3])
 def test_training_on_and_asking_less_depend_on_nobodys_pace(tmp_path: Path, in_flight: int) -> None:
-    train_on = " ".join(f"train_{level}.idle=32" for level in ("hi", "lo"))
+    train_idle = " ".join(f"train_{level}.idle=32" for level in ("hi", "lo"))
     sampled = "monitoring.share=0.5 monitoring.rate=0.5 monitoring.confidence=0.5"
-    config = corridor(in_flight=in_flight, values=f"{train_on} {sampled}")
+    config = corridor(in_flight=in_flight, values=f"{train_idle} {sampled}")
     assert out_of_order(tmp_path / "other", config, seed=1)[0] == at_once(tmp_path / "one", config)
 
 
-def test_the_next_question_is_put_before_policies_train_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_next_question_is_put_before_policies_train_idle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     events: list[str] = []
 
     class Noted(OutOfOrder):
@@ -105,8 +106,8 @@ def test_the_next_question_is_put_before_policies_train_on(tmp_path: Path, monke
             events.append("learned")
             self._client.report(run, results)
 
-    trained_on = Policy.train_on
-    monkeypatch.setattr(Policy, "train_on", lambda policy, rows: (events.append("on"), trained_on(policy, rows)))
+    trained_on = Policy.train_idle
+    monkeypatch.setattr(Policy, "train_idle", lambda policy, rows: (events.append("on"), trained_on(policy, rows)))
     config = corridor(values="train_hi.idle=32 train_lo.idle=32", episodes=8)
     with store(tmp_path) as (connection, options):
         between: Any = Noted(connection, seed=0)
@@ -189,9 +190,9 @@ def test_a_run_whose_budget_ends_has_learned_all_it_paid_for(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, budget: float
 ) -> None:
     events: list[str] = []
-    learn, train_on = Learner.learn, Learner.train_on
+    learn, train_idle = Learner.learn, Learner.train_idle
     monkeypatch.setattr(Learner, "learn", lambda learner, labels: (events.append("learn"), learn(learner, labels)))
-    monkeypatch.setattr(Learner, "train_on", lambda learner: (events.append("on"), train_on(learner)))
+    monkeypatch.setattr(Learner, "train_idle", lambda learner: (events.append("on"), train_idle(learner)))
     with store(tmp_path) as (connection, options):
         train(corridor(), connection, replace(options, budget=budget))
     assert "learn" in events

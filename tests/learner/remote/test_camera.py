@@ -19,9 +19,10 @@ from waypost_learner.domains.corridor import AGENT, PIXELS, Corridor, CorridorDo
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.experts.bot import Bot
 from waypost_learner.remote.camera import Camera
+from waypost_learner.remote.connection import Connection
 from waypost_learner.remote.translation import Translator
 from waypost_learner.rollout.simulator import Simulator
-from waypost_learner.runs.training import Connection, train
+from waypost_learner.runs.training import train
 
 WEST, EAST, TARGET = range(3)
 domain = CorridorDomain()

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.learner.kit import TINY, examples, segment, state
 
-from waypost.trajectory import State, Trajectory, n_actions
+from waypost.trajectory import Trajectory, n_steps
 from waypost_learner.algorithms import ALGORITHMS, find_algorithm
 from waypost_learner.algorithms.flat_bc import flat_bc
 from waypost_learner.algorithms.flat_dagger import flat_dagger
@@ -29,10 +29,12 @@ from waypost_learner.algorithms.queries import (
     LabelLo,
     Query,
 )
-from waypost_learner.policies.datasets import Labels, LoLabels
-from waypost_learner.rollout.policy_keys import FLAT, META
+from waypost_learner.policies.labels import Labels, LoLabels, rows_of, transitions_of
+from waypost_learner.rollout.policy_keys import FLAT, META, pi
+from waypost_learner.rollout.simulator import Start
 
-S = state("s")
+NO_SIMULATOR: Any = None
+S = Start(state("s"), instance=None, draw=0, simulator=NO_SIMULATOR)
 
 
 class ScriptedLearner:
@@ -42,14 +44,14 @@ class ScriptedLearner:
 
     def __init__(self, sigma: Trajectory, drawn: int = 0) -> None:
         self.sigma, self.drawn = sigma, drawn
-        self.started_from: list[State] = []
+        self.started_from: list[Start] = []
 
-    def roll_out(self, s: State) -> Trajectory:
+    def roll_out(self, s: Start) -> Trajectory:
         self.started_from.append(s)
         return self.sigma
 
-    def draw_one(self, sigma: Trajectory) -> int:
-        assert sigma == self.sigma
+    def draw_one(self, s: Start, sigma: Trajectory) -> int:
+        assert (s, sigma) == (S, self.sigma)
         return self.drawn
 
 
@@ -71,7 +73,7 @@ class Expert:
             case HierDemo():
                 return self.sigma
             case LabelFull(sigma):
-                return (1,) * n_actions(sigma)
+                return (1,) * n_steps(sigma)
             case LabelHi(sigma):
                 return tuple(self.good_subgoals[self.sigma.index(one)] for one in sigma)
             case InspectLo(one):
@@ -104,7 +106,7 @@ def hg_dagger_episode(
 def test_a_pass_ends_the_episode_with_one_question_and_nothing_learned() -> None:
     sigma, expert, labels = hg_dagger_episode([0, 1], [0, 1], [True, True], passes=True)
     assert expert.asked == [InspectFull(sigma)]
-    assert labels.rows == {}
+    assert rows_of(labels) == {}
 
 
 def test_after_a_fail_the_segments_are_inspected_up_to_the_first_that_fails_which_is_labeled() -> None:
@@ -117,13 +119,13 @@ def test_after_a_fail_the_segments_are_inspected_up_to_the_first_that_fails_whic
         InspectLo(sigma[2], before=sigma[:2]),
         LabelLo(sigma[2], before=sigma[:2]),
     ]
-    assert labels.rows.keys() == {META, 2}
+    assert rows_of(labels).keys() == {META, pi(2)}
 
 
 def test_the_first_wrong_subgoal_ends_the_inspections_and_its_segment_is_not_even_inspected() -> None:
     sigma, expert, labels = hg_dagger_episode([0, 1, 2], [0, 3, 2], [True, False, False])
     assert expert.asked == [InspectFull(sigma), LabelHi(sigma), InspectLo(sigma[0], before=())]
-    assert labels.rows.keys() == {META}
+    assert rows_of(labels).keys() == {META}
 
 
 def test_with_a_wrong_first_choice_the_high_level_alone_learns() -> None:
@@ -133,15 +135,15 @@ def test_with_a_wrong_first_choice_the_high_level_alone_learns() -> None:
 
 def test_the_high_level_gets_every_label_of_the_trajectory_also_those_after_a_wrong_choice() -> None:
     sigma, _, labels = hg_dagger_episode([0, 1, 2], [0, 3, 4], [True, True, True])
-    rows = labels.rows[META]
+    rows = rows_of(labels)[META]
     assert [row.choice for row in rows] == [0, 3, 4]
     assert [row.observation is one.start.observation for row, one in zip(rows, sigma, strict=True)] == [True] * 3
 
 
 def test_the_low_level_labels_go_to_the_subgoal_that_was_pursued() -> None:
     sigma, _, labels = hg_dagger_episode([4, 2], [4, 2], [True, False])
-    assert labels.rows.keys() == {META, 2}
-    rows = labels.rows[2]
+    assert rows_of(labels).keys() == {META, pi(2)}
+    rows = rows_of(labels)[pi(2)]
     assert [row.observation is s.observation for row, s in zip(rows, sigma[1].states, strict=True)] == [True] * 3
     assert [row.choice for row in rows] == [1, 1, -1]
 
@@ -149,7 +151,7 @@ def test_the_low_level_labels_go_to_the_subgoal_that_was_pursued() -> None:
 def test_when_every_segment_passes_only_the_subgoals_are_learned() -> None:
     sigma, expert, labels = hg_dagger_episode([0, 1], [0, 1], [True, True])
     assert expert.asked[2:] == [InspectLo(sigma[0], before=()), InspectLo(sigma[1], before=sigma[:1])]
-    assert labels.rows.keys() == {META}
+    assert rows_of(labels).keys() == {META}
 
 
 @pytest.mark.parametrize(
@@ -175,15 +177,15 @@ def test_stagger_asks_for_the_subgoal_of_one_segment_and_inspects_that_alone(
     ]
     assert expert.asked == asked[: len(kinds)]
     assert [type(query) for query in expert.asked] == kinds
-    assert [row.choice for row in labels.rows[META]] == [good]
-    assert (1 in labels.rows) == (LabelLo in kinds)
+    assert [row.choice for row in rows_of(labels)[META]] == [good]
+    assert (pi(1) in rows_of(labels)) == (LabelLo in kinds)
 
 
 def test_stagger_learns_nothing_of_an_episode_that_passed() -> None:
     sigma = (segment(0), segment(1))
     learner: Any = ScriptedLearner(sigma, drawn=1)
     expert = Expert(sigma, passes=True, good_subgoals=[0, 1], lo_passes=[True, True])
-    assert carried_out(hg_stagger(S, learner), expert).rows == {}
+    assert rows_of(carried_out(hg_stagger(S, learner), expert)) == {}
     assert expert.asked == [InspectFull(sigma)]
 
 
@@ -206,21 +208,25 @@ def test_whatever_happens_the_questions_are_the_papers(script: list[tuple[int, i
         if failing is not None:
             expected.append(LabelLo(sigma[failing], before=sigma[:failing]))
     assert expert.asked == expected
-    keys = set() if passes else {META} | {query.segment.subgoal for query in expected if isinstance(query, LabelLo)}
-    assert labels.rows.keys() == keys
+    keys = (
+        set()
+        if passes
+        else {META} | {pi(query.segment.subgoal or 0) for query in expected if isinstance(query, LabelLo)}
+    )
+    assert rows_of(labels).keys() == keys
     assert all(query not in expert.asked[:place] for place, query in enumerate(expert.asked))
 
 
 def test_algorithm_1_asks_for_a_demonstration_from_the_start_state_and_learns_all_of_it() -> None:
     demonstration = (segment(3, n_actions=2, action=1), segment(0, n_actions=1, action=2))
     episode = h_bc(S, learner=None)  # type: ignore[arg-type]  # it never looks at its policies
-    assert next(episode) == HierDemo(S)
+    assert next(episode) == HierDemo(S.state)
     with pytest.raises(StopIteration) as over:
         episode.send(demonstration)
     labels = over.value.value
-    assert [row.choice for row in labels.rows[META]] == [3, 0]
-    assert [(row.choice, row.termination) for row in labels.rows[3]] == [(1, -1), (1, 0), (-1, 1)]
-    assert [(row.choice, row.termination) for row in labels.rows[0]] == [(2, -1), (-1, 1)]
+    assert [row.choice for row in rows_of(labels)[META]] == [3, 0]
+    assert [(row.choice, row.termination) for row in rows_of(labels)[pi(3)]] == [(1, -1), (1, 0), (-1, 1)]
+    assert [(row.choice, row.termination) for row in rows_of(labels)[pi(0)]] == [(2, -1), (-1, 1)]
 
 
 def test_interactive_algorithms_start_with_demonstrations() -> None:
@@ -236,8 +242,8 @@ def test_flat_cloning_asks_for_a_flat_demonstration_and_learns_its_actions() -> 
     tau = flat_trajectory()
     expert = Expert(tau, True, [], [])
     labels = carried_out(flat_bc(S, ScriptedLearner(())), expert)  # type: ignore[arg-type]
-    assert expert.asked == [HierDemo(S, flat=True)]
-    assert [(row.choice, row.termination) for row in labels.rows[FLAT]] == [(0, -1)] * 3
+    assert expert.asked == [HierDemo(S.state, flat=True)]
+    assert [(row.choice, row.termination) for row in rows_of(labels)[FLAT]] == [(0, -1)] * 3
 
 
 @pytest.mark.parametrize("passes", [True, False])
@@ -246,7 +252,7 @@ def test_flat_dagger_inspects_and_labels_the_whole_trajectory_only_after_a_fail(
     expert = Expert(tau, passes, [], [])
     labels = carried_out(flat_dagger(S, ScriptedLearner(tau)), expert)  # type: ignore[arg-type]
     assert expert.asked == [InspectFull(tau)] if passes else [InspectFull(tau), LabelFull(tau)]
-    assert [row.choice for row in labels.rows.get(FLAT, [])] == ([] if passes else [1, 1, 1])
+    assert [row.choice for row in rows_of(labels).get(FLAT, [])] == ([] if passes else [1, 1, 1])
 
 
 @examples
@@ -258,8 +264,8 @@ def test_naive_hierarchical_dagger_labels_everything_and_inspects_nothing(
     expert = Expert(sigma, passes, [good for _, good in chosen_and_good], [passes] * len(sigma))
     labels = carried_out(naive_h_dagger(S, ScriptedLearner(sigma)), expert)  # type: ignore[arg-type]
     assert expert.asked == [LabelHi(sigma), *(LabelLo(one, before=sigma[:h]) for h, one in enumerate(sigma))]
-    assert [row.choice for row in labels.rows[META]] == expert.good_subgoals
-    assert labels.rows.keys() == {META, *(one.subgoal for one in sigma)}
+    assert [row.choice for row in rows_of(labels)[META]] == expert.good_subgoals
+    assert rows_of(labels).keys() == {META, *(pi(one.subgoal) for one in sigma if one.subgoal is not None)}
 
 
 @examples
@@ -273,21 +279,21 @@ def test_the_hybrid_learns_to_act_only_from_segments_before_the_first_wrong_subg
     agreeing = 0
     while agreeing < len(sigma) and (passes or chosen_and_good[agreeing][0] == chosen_and_good[agreeing][1]):
         agreeing += 1
-    learned = {key: len(transitions) for key, transitions in labels.transitions.items()}
-    assert learned == {g: 2 * sum(s.subgoal == g for s in sigma[:agreeing]) for g in learned}
+    learned = {key: len(transitions) for key, transitions in transitions_of(labels).items()}
+    assert learned == {key: 2 * sum(s.subgoal == key.subgoal for s in sigma[:agreeing]) for key in learned}
     assert sum(learned.values()) == 2 * agreeing
     assert expert.asked == ([InspectFull(sigma)] if passes else [InspectFull(sigma), LabelHi(sigma)])
-    assert [row.choice for row in labels.rows.get(META, [])] == ([] if passes else expert.good_subgoals)
+    assert [row.choice for row in rows_of(labels).get(META, [])] == ([] if passes else expert.good_subgoals)
 
 
 def test_learning_by_reinforcement_alone_asks_nobody_and_learns_from_everything() -> None:
     expert = Expert((), True, [], [])
     sigma = (segment(1, n_actions=3), segment(0, n_actions=2))
     labels = carried_out(h_dqn(S, ScriptedLearner(sigma)), expert)  # type: ignore[arg-type]
-    assert {key: len(of) for key, of in labels.transitions.items()} == {1: 3, 0: 2, META: 2}
+    assert {key: len(of) for key, of in transitions_of(labels).items()} == {pi(1): 3, pi(0): 2, META: 2}
     tau = (replace(flat_trajectory()[0], rewards=(0.0, 0.0, 1.0)),)
     labels = carried_out(flat_dqn(S, ScriptedLearner(tau)), expert)  # type: ignore[arg-type]
-    assert {key: len(of) for key, of in labels.transitions.items()} == {FLAT: 3}
+    assert {key: len(of) for key, of in transitions_of(labels).items()} == {FLAT: 3}
     assert expert.asked == []
 
 

@@ -172,8 +172,9 @@ def test_a_killed_waypost_train_resumed_reaches_the_weights_and_the_ledger_of_an
     killed, whole = str(tmp_path / "killed.db"), str(tmp_path / "whole.db")
     script = (
         "import os, signal\n"
-        "from learner import cli, driver\n"
-        "from learner.inprocess import InProcessTransport\n"
+        "from waypost_learner import cli\n"
+        "from waypost_learner.remote.in_process import InProcessTransport\n"
+        "from waypost_learner.runs import driver\n"
         "import tests.learner.kit\n"
         "driver.CHECKPOINT_EVERY = 4\n"
         "handle, calls = InProcessTransport.handle_request, []\n"

@@ -20,7 +20,7 @@ from click.testing import Result
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
-from tests.learner.figures_kit import run_of
+from tests.learner.experiments.figures_kit import run_of
 from tests.learner.kit import corridor, examples, store
 from tests.repository.kit import complaint, invocations
 from typer.testing import CliRunner
