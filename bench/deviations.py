@@ -23,18 +23,19 @@ from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.env import TRAIL
 from waypost_learner.domains.maze.maze import SUBGOALS
 from waypost_learner.experts.oracle import OracleExpert
-from waypost_learner.policies.datasets import UNLABELED, Dataset, Labels, Row
+from waypost_learner.policies.datasets import UNLABELED, Dataset, Row
 from waypost_learner.policies.imitation import Policy, TrainSpec
+from waypost_learner.policies.labels import Labels, rows_of, transformed_rows
 from waypost_learner.presets.paper import PAPER
 from waypost_learner.remote.translation import Translator
-from waypost_learner.rollout.policy_keys import META
+from waypost_learner.rollout.policy_keys import META, pi
 from waypost_learner.rollout.simulator import Simulator
 
 DOMAIN = MazeDomain()
 ORACLE = OracleExpert(DOMAIN)
 DEMONSTRATIONS, UNSEEN = 600, 200
 HI_SAMPLES, LO_SAMPLES = 200_000, 100_000
-FIRES = PAPER.choosing.termination_threshold
+FIRES = PAPER.rollouts.choosing.termination_threshold
 
 
 def demonstrations(train: bool, n: int) -> Iterator[Trajectory]:
@@ -65,9 +66,10 @@ def hi_rows(sigmas: list[Trajectory], symmetric: bool = False) -> list[Row]:
     labels = [Labels() for _ in sigmas]
     for one, sigma in zip(labels, sigmas, strict=True):
         one.append_demonstration(sigma)
+    rows = [rows_of(one) for one in labels]
     if symmetric:
-        labels += [one.seen_through(symmetry) for one in labels for symmetry in DOMAIN.symmetries]
-    return [row for one in labels for row in one.rows[META]]
+        rows += [transformed_rows(one, symmetry) for one in rows for symmetry in DOMAIN.symmetries]
+    return [row for one in rows for row in one[META]]
 
 
 def without_trail(rows: list[Row]) -> list[Row]:
@@ -92,7 +94,7 @@ def hi_accuracy(
 ) -> str:
     """Percentage of the expert's unseen states in which a trained mu chooses as the expert does."""
     spec = replace(spec, least=HI_SAMPLES, most=HI_SAMPLES)
-    policy = Policy(DOMAIN.observation_shape, len(SUBGOALS), False, PAPER.network, spec, seed=0)
+    policy = Policy(DOMAIN.observation_shape, len(SUBGOALS), False, PAPER.training.network, spec, seed=0)
     change(policy)
     policy.train(dataset(train))
     chosen = policy(np.stack([row.observation for row in test])).logits.argmax(1)
@@ -102,7 +104,7 @@ def hi_accuracy(
 def meta_controllers() -> None:
     """Deviations 5, 13 and 15."""
     known, unseen = list(demonstrations(True, DEMONSTRATIONS)), list(demonstrations(False, UNSEEN))
-    train, test, spec = hi_rows(known), hi_rows(unseen), PAPER.train_hi
+    train, test, spec = hi_rows(known), hi_rows(unseen), PAPER.training.train_hi
     print(f"\nHI choices on {len(test)} unseen states, {HI_SAMPLES:,} samples of {DEMONSTRATIONS} demonstrations\n")
     print("| deviation | meta-controller | chooses as the expert |\n|---|---|---|")
     print(f"| | `paper` preset | {hi_accuracy(spec, train, test)} |", flush=True)
@@ -121,7 +123,7 @@ class Separate:
     """pi_g and beta_g as two networks, as the paper has them."""
 
     def __init__(self, spec: TrainSpec) -> None:
-        shape, network = DOMAIN.observation_shape, PAPER.network
+        shape, network = DOMAIN.observation_shape, PAPER.training.network
         self.acting = Policy(shape, len(DOMAIN.actions), False, network, spec, seed=0)
         self.ending = Policy(shape, 2, False, network, spec, seed=1)
 
@@ -141,7 +143,7 @@ class Headed:
     """pi_g with beta_g as its extra head."""
 
     def __init__(self, spec: TrainSpec) -> None:
-        self.policy = Policy(DOMAIN.observation_shape, len(DOMAIN.actions), True, PAPER.network, spec, seed=0)
+        self.policy = Policy(DOMAIN.observation_shape, len(DOMAIN.actions), True, PAPER.training.network, spec, seed=0)
 
     def train(self, rows: list[Row]) -> None:
         """Train."""
@@ -158,20 +160,21 @@ def lo_rows(sigmas: list[Trajectory], first_state: bool) -> dict[int, list[Row]]
     labels = Labels()
     for sigma in sigmas:
         labels.append_demonstration(sigma)
+    rows = rows_of(labels)
     starts = {s.start.observation.tobytes() for sigma in sigmas for s in sigma} if first_state else set()
 
     def begun(row: Row) -> Row:
         asked = row.termination != UNLABELED or row.observation.tobytes() not in starts
         return row if asked else replace(row, termination=0)
 
-    return {g: [begun(row) for row in labels.rows.get(g, [])] for g in range(len(SUBGOALS))}
+    return {g: [begun(row) for row in rows.get(pi(g), [])] for g in range(len(SUBGOALS))}
 
 
 def subpolicies() -> None:
     """Deviations 4 and 7."""
     known = list(demonstrations(True, PAPER.warm_start))
     test = lo_rows(list(demonstrations(False, UNSEEN)), first_state=False)
-    spec = replace(PAPER.train_lo, least=LO_SAMPLES, most=LO_SAMPLES)
+    spec = replace(PAPER.training.train_lo, least=LO_SAMPLES, most=LO_SAMPLES)
     print(f"\nSubpolicies on the expert's unseen states, {LO_SAMPLES:,} samples of {PAPER.warm_start} demonstrations\n")
     print("| deviation | subpolicy | acts as the expert | ends in time | ends too early |\n|---|---|---|---|---|")
     variants: list[tuple[str, str, Callable[[TrainSpec], Any], bool]] = [

@@ -12,7 +12,7 @@ from pathlib import Path
 from person import answered
 
 from waypost import wire
-from waypost_learner.runs.training import embedded
+from waypost_learner.remote.embedded import embedded
 
 
 def kept(query: wire.Query) -> int:

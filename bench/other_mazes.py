@@ -15,7 +15,7 @@ from waypost_learner.domains.maze.files import save_mazes
 from waypost_learner.domains.maze.maze import Maze, closed_rooms, distances_from, room_of, walls
 from waypost_learner.runs import checkpoints
 from waypost_learner.runs.evaluation import evaluate
-from waypost_learner.runs.training import build_learner
+from waypost_learner.runs.setup import build_learner
 
 N = 300  # of each kind drawn here
 _WALLS = list(walls())
@@ -79,7 +79,7 @@ def main() -> None:
         parser.exit(0, "Give a run whose checkpoint is there; without one there is nothing to measure.\n")
     folder = arguments.checkpoints or arguments.store.with_name(f"{arguments.store.name}.checkpoints")
     path = folder / f"{arguments.run}.safetensors"
-    learner, _ = build_learner(checkpoints.read_header(path).config, threads=None)
+    learner = build_learner(checkpoints.read_header(path).config, threads=None)
     checkpoints.load(path, learner)
     kinds: dict[str, tuple[Doors, int]] = {
         "many ways, any length": (many_ways, 1),

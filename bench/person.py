@@ -11,7 +11,7 @@ from pathlib import Path
 
 from waypost import wire
 from waypost.client import Client
-from waypost_learner.runs.training import embedded
+from waypost_learner.remote.embedded import embedded
 
 WATCHING = 3.0  # seconds to see what a question is about, an episode played at the page's own pace
 SECONDS: dict[wire.Kind, float] = {  # of one decision

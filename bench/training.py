@@ -35,7 +35,7 @@ from waypost_learner.presets.paper import PAPER
 from waypost_learner.rollout.simulator import Simulator
 
 ROUNDS = 5
-SPEC = PAPER.train_hi
+SPEC = PAPER.training.train_hi
 Round = Callable[[], float]  # does a round of work and returns its seconds
 
 
@@ -60,7 +60,7 @@ def observations(n: int) -> Dataset:
 
 def plain_network(dropout: float) -> nn.Sequential:
     """Table 1 with torch's own layers."""
-    network = PAPER.network
+    network = PAPER.training.network
     return nn.Sequential(
         *table_1((3, 17, 17), network.channels, network.hidden, dropout), nn.Linear(network.hidden, len(SUBGOALS))
     )
@@ -99,7 +99,7 @@ def imitation(data: Dataset, folder: Path) -> Peer:
         batch=SPEC.batch,
         learning_rate=SPEC.learning_rate,
         dropout=SPEC.dropout,
-        **asdict(PAPER.network),
+        **asdict(PAPER.training.network),
     )
 
 
@@ -181,7 +181,7 @@ def main() -> None:
     arguments = parser.parse_args()
     torch.set_num_threads(1)
     data = observations(arguments.rows)
-    policy = Policy((3, 17, 17), len(SUBGOALS), False, PAPER.network, SPEC, seed=0)
+    policy = Policy((3, 17, 17), len(SUBGOALS), False, PAPER.training.network, SPEC, seed=0)
     print(machine(policy))
     print_training(policy, data)
     print_latency(policy, data)

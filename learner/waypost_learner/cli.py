@@ -1,7 +1,6 @@
-"""The command `waypost`: the server's commands, and the learner's.
+"""The command `waypost`: the server's commands and the learner's.
 
-Importing this module must be quick and must not need the learner's packages: they are imported by the commands that
-use them, so that the base installation can serve.
+Each command imports the learner's packages when it runs. So the base installation, which lacks them, can serve.
 """
 
 import json
@@ -15,6 +14,7 @@ from rich.console import Console
 
 from waypost.wire import EpisodeResult, Receipt, Run, RunPatch
 from waypost_learner.commands import (
+    JsonOption,
     PatienceOption,
     ServerOption,
     TokenOption,
@@ -22,99 +22,109 @@ from waypost_learner.commands import (
     learner_errors,
     needed,
     progress_bar,
+    refuse,
 )
 from waypost_learner.experiments import cli as experiments_cli
 from waypost_server import cli as server_cli
-from waypost_server.cli import JsonOption, refuse
 
 app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
-    help="Waypost: interactive labeling for hierarchical imitation learning.",
+    help="Waypost: a labeling server for hierarchical imitation learning, and its learners.",
 )
 app.add_typer(server_cli.app)
 app.add_typer(experiments_cli.app)
 
-StoreOption = Annotated[Path | None, typer.Option("--store", help="An SQLite file; it is created if it is not there.")]
+StoreOption = Annotated[
+    Path | None, typer.Option("--store", help="The SQLite file; it is created if it does not exist.")
+]
 CheckpointsOption = Annotated[
     Path | None,
-    typer.Option(help="Folder of checkpoints; beside the store, or ./checkpoints with a server."),
+    typer.Option(help="Folder of checkpoints. Default: beside the store; with a server, ./checkpoints."),
 ]
 ThreadsOption = Annotated[
-    int | None, typer.Option(min=1, help="Processor threads to train with; it changes nothing but the time.")
+    int | None, typer.Option(min=1, help="CPU threads to train with. The result does not depend on it.")
 ]
 
 
 @app.command()
 def train(
-    algorithm: Annotated[str, typer.Argument(help="hg-dagger, h-bc or another; a wrong name lists all.")],
+    algorithm: Annotated[str, typer.Argument(help="The algorithm, such as hg-dagger; a wrong name lists all.")],
     domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
     instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "random",
-    preset: Annotated[str, typer.Option(help="The values of learning.")] = "lean",
-    seed: Annotated[int, typer.Option(min=0, help="Fixes the run.")] = 0,
+    preset: Annotated[str, typer.Option(help="The preset: lean or paper.")] = "lean",
+    seed: Annotated[int, typer.Option(min=0, help="The seed of every random choice.")] = 0,
     episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 1000,
-    warm_start: Annotated[int | None, typer.Option(min=0, help="Demonstrations first; the preset's if absent.")] = None,
-    redraw: Annotated[bool, typer.Option(help="Draw training instances until one fails, each episode.")] = False,
-    head_start: Annotated[float | None, typer.Option(help="Share of an optimal trajectory done beforehand.")] = None,
-    values: Annotated[str | None, typer.Option(help='Other values than the preset\'s: "relabeling=false".')] = None,
-    expert: Annotated[str, typer.Option(help="Who answers: oracle (in this process) or queue.")] = "oracle",
+    warm_start: Annotated[
+        int | None, typer.Option(min=0, help="Demonstrations before queries. Default: the preset's.")
+    ] = None,
+    redraw: Annotated[bool, typer.Option(help="In each episode, draw instances until one fails.")] = False,
+    head_start: Annotated[float | None, typer.Option(help="Share of an optimal trajectory to start with.")] = None,
+    values: Annotated[str | None, typer.Option(help='Values that replace the preset\'s: "relabeling=false".')] = None,
+    expert: Annotated[str, typer.Option(help="Who answers: oracle (in this process) or queue (others).")] = "oracle",
     server: ServerOption = None,
     token: TokenOption = "",
     store: StoreOption = None,
-    in_flight: Annotated[int, typer.Option(min=1, help="Episodes open at once; 1 is the paper's loop.")] = 1,
-    resume: Annotated[bool, typer.Option(help="Go on with the newest unfinished run of these values.")] = False,
-    name: Annotated[str | None, typer.Option(help="What the run is called.")] = None,
-    budget: Annotated[float | None, typer.Option(min=0, help="Most units the run may cost.")] = None,
+    in_flight: Annotated[int, typer.Option(min=1, help="Episodes open at the same time; 1 is the paper's loop.")] = 1,
+    resume: Annotated[bool, typer.Option(help="Continue the newest unfinished run of these options.")] = False,
+    name: Annotated[str | None, typer.Option(help="The run's name.")] = None,
+    budget: Annotated[float | None, typer.Option(min=0, help="Most units that the run may cost.")] = None,
     checkpoints: CheckpointsOption = None,
     threads: ThreadsOption = None,
     patience: PatienceOption = 300.0,
     as_json: JsonOption = False,
 ) -> None:
-    """Train with an algorithm of the paper; every answer and its price goes into the store."""
+    """Train with an algorithm of the paper. The store keeps every answer and its cost."""
     if expert not in {"oracle", "queue"}:
-        refuse(f"There is no expert {expert!r}; choose oracle (answers in this process) or queue (others answer).")
+        refuse(f"There is no expert {expert!r}; choose oracle (it answers in this process) or queue (others answer).")
     if server is None and expert == "queue":
-        refuse("With --expert queue others answer at a server: give its address with --server URL.")
+        refuse("With --expert queue, others answer at a server: give its address with --server URL.")
     if server is not None and store is not None:
         refuse("The server keeps the store: give either --server or --store.")
-    with learner_errors("Interrupted; `--resume` goes on from the last checkpoint."):
-        from waypost_learner.runs import training
+    with learner_errors("Interrupted; `--resume` continues from the last checkpoint."):
+        from waypost_learner.remote.connection import connected
+        from waypost_learner.remote.embedded import embedded
         from waypost_learner.runs.config import TrainConfig
+        from waypost_learner.runs.setup import set_up
+        from waypost_learner.runs.training import RunOptions
+        from waypost_learner.runs.training import train as train_run
 
         config = TrainConfig(
             algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start, values
         )
-        training.build_learner(config, threads)  # says what is wrong before there is a store
-        options = training.RunOptions(name, budget, resume, checkpoint_folder(checkpoints, store, server), threads)
+        set_up(config, threads)  # refuses a wrong configuration before the store is created
+        options = RunOptions(name, budget, resume, checkpoint_folder(checkpoints, store, server), threads)
         with ExitStack() as stack:
             connection = stack.enter_context(
-                training.remote(server, needed(token), expert == "oracle", patience)
+                connected(server, needed(token), expert == "oracle", patience)
                 if server is not None
-                else training.embedded(store or Path("waypost.db"))
+                else embedded(store or Path("waypost.db"))
             )
             progress = stack.enter_context(_TrainingProgress(episodes))
-            summary = training.train(config, connection, options, progress.start, progress.episode)
+            summary = train_run(config, connection, options, progress.start, progress.episode)
     _print_summary(summary, as_json)
 
 
 @app.command()
 def evaluate(
     run: Annotated[str, typer.Argument(help="The run's id, as `waypost train` printed it.")],
-    instances: Annotated[str | None, typer.Option(help="Other instances than the run's own unseen ones.")] = None,
-    episodes: Annotated[int, typer.Option(min=0, help="How many; 0 for one on each instance.")] = 0,
+    instances: Annotated[
+        str | None, typer.Option(help="Instances to evaluate on. Default: the run's own unseen ones.")
+    ] = None,
+    episodes: Annotated[int, typer.Option(min=0, help="How many episodes; 0 for one on each instance.")] = 0,
     store: StoreOption = None,
     server: ServerOption = None,
     checkpoints: CheckpointsOption = None,
     threads: ThreadsOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Measure the success of a run's policy on unseen or given instances."""
+    """Measure the success rate of a run's policies on unseen or given instances."""
     with learner_errors():
-        from waypost_learner.runs import training
+        from waypost_learner.runs.evaluation import evaluate_run
 
         path = checkpoint_folder(checkpoints, store, server) / f"{run}.safetensors"
-        found = training.evaluate_run(path, instances, episodes, threads)
+        found = evaluate_run(path, instances, episodes, threads)
     if as_json:
         typer.echo(json.dumps({**vars(found), "success_rate": found.success_rate}))
     else:
@@ -125,12 +135,12 @@ def evaluate(
 def oracle(
     server: Annotated[str, typer.Option(help="The server.")] = "http://127.0.0.1:8000",
     token: TokenOption = "",
-    run: Annotated[str | None, typer.Option(help="Only this run.")] = None,
-    kinds: Annotated[str | None, typer.Option(help="Only these kinds, comma-separated.")] = None,
-    error_rate: Annotated[float, typer.Option(min=0, max=1, help="Share of answers that are random ones.")] = 0.0,
-    seconds: Annotated[float, typer.Option(min=0, help="How long to think about each answer.")] = 0.0,
-    defer: Annotated[float, typer.Option(min=0, help="Leave queries so many seconds to people at work.")] = 0.0,
-    seed: Annotated[int, typer.Option(min=0, help="Of the random answers.")] = 0,
+    run: Annotated[str | None, typer.Option(help="Answer only this run's queries.")] = None,
+    kinds: Annotated[str | None, typer.Option(help="Answer only these kinds, comma-separated.")] = None,
+    error_rate: Annotated[float, typer.Option(min=0, max=1, help="Share of answers with random labels.")] = 0.0,
+    seconds: Annotated[float, typer.Option(min=0, help="Seconds to wait before each answer.")] = 0.0,
+    defer: Annotated[float, typer.Option(min=0, help="Seconds for which to leave queries to people.")] = 0.0,
+    seed: Annotated[int, typer.Option(min=0, help="The seed of random answers.")] = 0,
     patience: PatienceOption = 300.0,
 ) -> None:
     """Answer queries with the oracle of their domain, until interrupted."""
@@ -149,7 +159,7 @@ def oracle(
             def count(receipt: Receipt) -> None:
                 nonlocal answers, units
                 answers, units = answers + 1, units + receipt.units
-                status.update(f"{answers} answers, {units:g} units; the last was query {receipt.query}.")
+                status.update(f"{answers} answers, {units:g} units; the last answer was to query {receipt.query}.")
 
             try:
                 bot.work_forever(count)
@@ -160,13 +170,13 @@ def oracle(
 @app.command()
 def demo(
     port: Annotated[int, typer.Option(min=0, max=65_535, help="The port; 0 takes a free one.")] = 8000,
-    database: Annotated[Path, typer.Option(help="The SQLite file that keeps what is answered.")] = Path(
+    database: Annotated[Path, typer.Option(help="The SQLite file; it is created if it does not exist.")] = Path(
         "waypost-demo.db"
     ),
     episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 300,
     instances: Annotated[str, typer.Option(help="The mazes: random or corners.")] = "corners",
 ) -> None:
-    """Show it all on this machine: a server, a learner and a bot; prints a link that logs you in."""
+    """Run a server, a learner and a bot on this machine, and print a link that logs you in."""
     with learner_errors():
         from waypost_learner.demo import run_demo
 
@@ -186,7 +196,7 @@ def gold(
     ] = None,
     patience: PatienceOption = 300.0,
 ) -> None:
-    """Make queries of a run gold, with all that is right by the oracle of its domain."""
+    """Make answered queries of a run gold, with the right answers from the oracle of its domain."""
     with learner_errors():
         from waypost.client import Client
         from waypost_learner.experts.gold import make_gold
@@ -194,24 +204,24 @@ def gold(
         client = Client(server, needed(token), patience=patience)
         found = make_gold(client, run, queries)
         share = client.patch_run(run, RunPatch(gold_rate=rate)) if rate is not None else client.run(run)
-    typer.echo(f"The run has {found} gold queries; {share.gold_rate:.1%} of what each annotator gets is gold.")
+    typer.echo(f"The run has {found} gold queries; {share.gold_rate:.1%} of each annotator's queries are gold.")
 
 
 @app.command()
 def practice(
-    file: Annotated[Path, typer.Argument(help="Where to write them.")],
+    file: Annotated[Path, typer.Argument(help="The file to write.")],
     domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
     instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "corners",
-    seed: Annotated[int, typer.Option(min=0, help="Fixes them.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="The seed of the rollouts.")] = 0,
 ) -> None:
-    """Write practice queries for people, marked by the domain's oracle; `WAYPOST_PRACTICE` serves them."""
+    """Write practice queries, marked by the domain's oracle. `WAYPOST_PRACTICE=FILE` makes a server offer them."""
     with learner_errors():
         from waypost.domain import find_domain
         from waypost_learner.experts.practice import practice as made
 
         found = made(find_domain(domain), instances, seed)
     file.write_text(found, encoding="utf-8")
-    typer.echo(f"Practice queries are in {file}.")
+    typer.echo(f"The practice queries are in {file}.")
 
 
 def main() -> None:
@@ -219,7 +229,7 @@ def main() -> None:
     app()
 
 
-# --- what the commands share
+# --- used by the commands
 
 
 def _kinds(text: str | None) -> Any:
@@ -238,7 +248,7 @@ def _kinds(text: str | None) -> Any:
 
 @dataclass
 class _TrainingProgress:
-    """A bar on a terminal; nothing elsewhere."""
+    """A progress bar of a run that shows nothing if standard error is no terminal."""
 
     episodes: int
 

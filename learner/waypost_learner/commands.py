@@ -1,21 +1,16 @@
-"""What the learner's commands share: options, and what can go wrong said in one sentence.
+"""Options, errors and progress bars that the learner's commands share.
 
-Quick to import, like every module of commands.
+Modules of commands must be quick to import and must not import the learner's packages.
 """
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-
-from waypost_server.cli import refuse
-from waypost_server.db.engine import BadDatabase
-from waypost_server.db.schema import NewerStore
-from waypost_server.serving import CannotServe
 
 ServerOption = Annotated[str | None, typer.Option("--server", help="A running server, such as http://127.0.0.1:8000.")]
 TokenOption = Annotated[
@@ -23,22 +18,32 @@ TokenOption = Annotated[
     typer.Option("--token", envvar="WAYPOST_TOKEN", help="An API token (`waypost token create`).", show_default=False),
 ]
 PatienceOption = Annotated[
-    float, typer.Option(min=0, help="How long to go on when the server does not answer, seconds.")
+    float, typer.Option(min=0, help="Seconds for which to try again when the server does not answer.")
 ]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as one line of JSON.")]
+
+
+def refuse(message: str) -> NoReturn:
+    """Print what is wrong with the command line, and exit with status 2."""
+    typer.echo(message, err=True)
+    raise typer.Exit(2)
 
 
 @contextmanager
 def learner_errors(interrupted: str = "Interrupted.") -> Iterator[None]:
-    """Turn what can go wrong into one sentence: exit 2 for wrong usage, 1 for what failed.
+    """Turn errors into one sentence on standard error.
+
+    The exit status is 2 for a ValueError or a missing package, 1 if the server refused or did not answer, and 130 after
+    Ctrl-C.
 
     Args:
-        interrupted: what is said after Ctrl-C.
+        interrupted: printed after Ctrl-C.
     """
     try:
         yield
     except ModuleNotFoundError as error:
         refuse(f"This needs the package {error.name}: install the learner with `pip install 'waypost[learner]'`.")
-    except (ValueError, BadDatabase, NewerStore, CannotServe) as error:
+    except ValueError as error:
         refuse(_sentence(error))
     except KeyboardInterrupt:
         typer.echo(interrupted, err=True)
@@ -53,7 +58,7 @@ def learner_errors(interrupted: str = "Interrupted.") -> Iterator[None]:
 
 
 def needed(token: str) -> str:
-    """Return a token, or say that one must be given."""
+    """Return a token; refuse an empty one."""
     if not token:
         refuse("The server wants a token: give --token or set WAYPOST_TOKEN (`waypost token create USER` makes one).")
     return token
@@ -67,7 +72,13 @@ def _sentence(error: Exception) -> str:
 
 
 def checkpoint_folder(given: Path | None, store: Path | None, server: str | None) -> Path:
-    """Return where checkpoints are: the folder given, else beside the store, else ./checkpoints."""
+    """Return the folder of checkpoints.
+
+    Args:
+        given: the folder that the user named, which is returned if there is one.
+        store: the SQLite file; checkpoints are beside it unless there is a server. "waypost.db" if None.
+        server: the server's address; with a server, checkpoints are in "checkpoints".
+    """
     if given is not None:
         return given
     if server is not None:
@@ -77,7 +88,7 @@ def checkpoint_folder(given: Path | None, store: Path | None, server: str | None
 
 
 def progress_bar() -> Progress:
-    """Return a bar on a terminal; nothing elsewhere."""
+    """Return a progress bar that shows nothing if standard error is no terminal."""
     console = Console(stderr=True)
     return Progress(
         TextColumn("{task.description}"),

@@ -1,11 +1,12 @@
-"""`waypost demo`: a server, a learner and an oracle bot that leaves the questions to you while you answer them."""
+"""`waypost demo`: a server, a learner and an oracle bot on this machine; the bot leaves queries to you at first."""
 
 import os
 import signal
 import subprocess
 import sys
 import time
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import typer
@@ -15,26 +16,33 @@ from waypost import wire
 from waypost_server import serving
 from waypost_server.auth import tokens
 from waypost_server.cli import login_url
-from waypost_server.db.engine import Database
+from waypost_server.db.engine import BadDatabase, Database
+from waypost_server.db.schema import NewerStore
 from waypost_server.db.tables import queries
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
-DEFER_SECONDS = 25.0  # how long the bot leaves a question to a person at work
-THINKING_SECONDS = 1.0  # for each answer: while the link is opened, the run does not race through to its end
-LINK_SECONDS = 86_400.0
-PATIENCE_SECONDS = 120.0  # the link is printed by then, whatever the learner does
+DEFER_SECONDS = 25.0  # for which the bot leaves a query to a person who is working
+THINKING_SECONDS = 1.0  # of the bot before each answer, so that the run is not over before the link is opened
+LINK_SECONDS = 86_400.0  # for which the login link is valid
+PATIENCE_SECONDS = 120.0  # after which the link is printed, even if the learner asks nothing yet
 
 
 def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
-    """Serve until interrupted, with a learner that asks and a bot that answers what nobody else does.
+    """Serve until interrupted, with a learner that asks and a bot that answers what nobody else answers.
+
+    Args:
+        port: where to serve; 0 takes a free port.
+        database: the SQLite file; it is created if it does not exist.
+        episodes: of the learner's run.
+        instances: the name of its instances.
 
     Raises:
-        CannotServe, BadDatabase, NewerStore: with one sentence for the user.
+        ValueError: the server cannot start; the message is one sentence for the user.
     """
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # told to stop, take the others along
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that the other processes are stopped too
     settings = Settings(database=f"sqlite:///{database}", link_seconds=LINK_SECONDS)
-    with ExitStack() as stack:
+    with _server_errors(), ExitStack() as stack:
         served = stack.enter_context(serving.background(settings, port=port))
         log = stack.enter_context(database.with_name(f"{database.name}.log").open("ab"))
 
@@ -52,33 +60,44 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
             stack.callback(process.terminate)
             return process
 
-        typer.echo(f"Waypost is at {served.url}; what is answered is kept in {database}.")
+        typer.echo(f"Waypost is at {served.url}; answers are kept in {database}.")
         start("oracle-bot", "annotator", "oracle", "--defer", str(DEFER_SECONDS), "--seconds", str(THINKING_SECONDS))
         train = ("train", "hg-dagger", "--expert", "queue", "--name", "demo")
         values = ("--instances", instances, "--episodes", str(episodes))
         checkpoints = ("--checkpoints", str(database.with_name(f"{database.name}.checkpoints")))
         learner = start("demo-learner", "learner", *train, *values, *checkpoints)
         try:
-            typer.echo("A bot shows a learner a few ways through mazes; then it begins to ask.")
-            wait_for_questions(served.db, learner)
-            typer.echo("Answer with the keyboard; a bot answers whatever you leave.")
-            typer.echo(f"Open this link, once: {login_url(served.db, served.url, 'you', 'admin', LINK_SECONDS)}")
+            typer.echo("First a bot demonstrates a few mazes to a learner; then the learner asks queries.")
+            wait_for_queries(served.db, learner)
+            typer.echo("Answer with the keyboard; the bot answers what you leave.")
+            typer.echo(
+                f"Open this link; it works once: {login_url(served.db, served.url, 'you', 'admin', LINK_SECONDS)}"
+            )
             typer.echo("Press Ctrl-C to stop.")
             if learner.wait():
-                typer.echo(f"The learner stopped before the end; {log.name} says why.", err=True)
+                typer.echo(f"The learner stopped before its end; {log.name} says why.", err=True)
             else:
-                typer.echo("The run is finished; the page stays until you press Ctrl-C.")
+                typer.echo("The run is finished; the server runs until you press Ctrl-C.")
             while True:
                 time.sleep(3_600)
         except KeyboardInterrupt:
             typer.echo("Stopped.")
 
 
-def wait_for_questions(db: Database, learner: subprocess.Popen[bytes]) -> None:
-    """Wait until a learner that has just begun asks what is quickly answered: not for demonstrations any more."""
+def wait_for_queries(db: Database, learner: subprocess.Popen[bytes]) -> None:
+    """Wait until a learner that was just started asks its first query that is no demonstration, or has ended."""
     began = time.time()
-    there = exists().where(queries.c.kind != "hier_demo", queries.c.created_at >= began)
+    asked = exists().where(queries.c.kind != "hier_demo", queries.c.created_at >= began)
     while learner.poll() is None and time.time() < began + PATIENCE_SECONDS:
-        if db.read_now(lambda tx: bool(tx.conn.execute(select(there)).scalar_one())):
+        if db.read_now(lambda tx: bool(tx.conn.execute(select(asked)).scalar_one())):
             return
         time.sleep(0.2)
+
+
+@contextmanager
+def _server_errors() -> Iterator[None]:
+    """Turn the server's errors about its start into ValueErrors with the same sentence."""
+    try:
+        yield
+    except (serving.CannotServe, BadDatabase, NewerStore) as error:
+        raise ValueError(str(error)) from error

@@ -46,6 +46,6 @@ class Segment:
 Trajectory = tuple[Segment, ...]
 
 
-def n_actions(trajectory: Trajectory) -> int:
-    """Return the length of the full trajectory tau_FULL."""
+def n_steps(trajectory: Trajectory) -> int:
+    """Return the number of actions in the full trajectory tau_FULL."""
     return sum(len(segment.actions) for segment in trajectory)

@@ -11,7 +11,7 @@ from tests.acceptance.processes import LENGTH, VALUES, Reference, ServerProcess,
 from tests.browser.conftest import FLAGS, WIDE
 from tests.browser.kit import Complaints, find_chromium
 
-from waypost_learner.runs.training import embedded
+from waypost_learner.remote.embedded import embedded
 
 
 @pytest.fixture

@@ -20,9 +20,10 @@ from waypost.trajectory import Segment
 from waypost_learner.algorithms.queries import LabelHi
 from waypost_learner.domains.corridor import Corridor, CorridorDomain
 from waypost_learner.remote.camera import Camera
+from waypost_learner.remote.connection import Connection
 from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
-from waypost_learner.runs.training import Connection, RunOptions, train
+from waypost_learner.runs.training import RunOptions, train
 from waypost_server.auth import tokens
 from waypost_server.serving import Served
 from waypost_server.users import service as users

@@ -16,31 +16,36 @@ from waypost_learner.domains.maze.generator import maze_set
 from waypost_learner.domains.maze.maze import ROOMS, SIZE, Cell, Maze, closed_rooms, room_of, walls
 from waypost_learner.policies.dqn import DqnSpec
 from waypost_learner.policies.imitation import TrainSpec
+from waypost_learner.policies.labels import Labels, LoLabels
 from waypost_learner.policies.networks import NetworkSpec
 from waypost_learner.presets import PRESETS
-from waypost_learner.presets.base import Preset
-from waypost_learner.rollout.rollout import Choosing
+from waypost_learner.presets.base import Preset, Training
+from waypost_learner.remote.connection import Connection
+from waypost_learner.remote.embedded import embedded
+from waypost_learner.rollout.policy_keys import PolicyKey
+from waypost_learner.rollout.rollout import RolloutSpec, SelectionSpec
 from waypost_learner.runs.config import TrainConfig
-from waypost_learner.runs.training import Connection, RunOptions, embedded
+from waypost_learner.runs.training import RunOptions
 
 TINY_TRAIN = TrainSpec(learning_rate=5e-3, batch=16, least=48, most=48, dropout=0.25)
 TINY = Preset(
     warm_start=3,
-    network=NetworkSpec(channels=(4, 4), hidden=16),
-    train_hi=TINY_TRAIN,
-    train_lo=TINY_TRAIN,
-    train_flat=TINY_TRAIN,
-    train_hi_hybrid=TINY_TRAIN,
-    dqn=DqnSpec(
-        learning_rate=5e-3, batch=16, least=32, update_every=2, epsilon=((0, 1.0), (200, 0.02)), target_every=20
+    rollouts=RolloutSpec(SelectionSpec(temperature=0.5, termination_threshold=0.9)),
+    training=Training(
+        network=NetworkSpec(channels=(4, 4), hidden=16),
+        train_hi=TINY_TRAIN,
+        train_lo=TINY_TRAIN,
+        train_flat=TINY_TRAIN,
+        train_hi_hybrid=TINY_TRAIN,
+        dqn=DqnSpec(
+            learning_rate=5e-3, batch=16, least=32, update_every=2, epsilon=((0, 1.0), (200, 0.02)), target_every=20
+        ),
     ),
-    choosing=Choosing(temperature=0.5, termination_threshold=0.9),
 )
 """A preset for runs of a second, in which policies make all kinds of mistakes."""
 
 _AVERAGED = replace(TINY_TRAIN, averaging=0.9)
-TINY_LEAN = replace(
-    TINY,
+TINY_LEAN = TINY.with_values(
     train_hi=_AVERAGED,
     train_lo=_AVERAGED,
     train_flat=_AVERAGED,
@@ -57,7 +62,7 @@ TINY_LEAN = replace(
 examples = settings(deadline=None, max_examples=40)
 """How properties are tried."""
 
-GREEDY = Choosing(temperature=0, termination_threshold=0.9)
+GREEDY = SelectionSpec(temperature=0, termination_threshold=0.9)
 STEPS: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))  # up, down, left, right
 
 
@@ -150,6 +155,26 @@ def free_mazes(draw: st.DrawFn) -> Maze:
 def mazes() -> st.SearchStrategy[Maze]:
     """Mazes of the sets and of files."""
     return st.one_of(drawn_mazes(), free_mazes())
+
+
+def random_labels(seed: int, shape: tuple[int, ...], keys: Sequence[PolicyKey], n: int = 5, choices: int = 2) -> Labels:
+    """Labels of random states for mu and for subpolicies: n states each."""
+    rng = np.random.default_rng(seed)
+
+    def states(n: int) -> tuple[State, ...]:
+        return tuple(State(rng.random(shape).astype(np.float32), None) for _ in range(n))
+
+    labels = Labels()
+    for key in keys:
+        chosen = tuple(int(choice) for choice in rng.integers(choices, size=n))
+        if key.subgoal is None:
+            sigma = tuple(Segment(0, (one, one), (0,), terminated=False) for one in states(n))
+            labels.append_hi(sigma, chosen)
+        else:
+            ends = bool(rng.integers(2))
+            segment = Segment(key.subgoal, states(n + 1), (0,) * n, terminated=False)
+            labels.append_lo(segment, LoLabels(chosen, (*(False for _ in chosen), ends)))
+    return labels
 
 
 def picture(maze: Maze) -> list[str]:

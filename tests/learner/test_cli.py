@@ -16,7 +16,7 @@ from typer.testing import CliRunner
 from waypost_learner import cli
 from waypost_learner.domains.maze.files import save_mazes
 from waypost_learner.domains.maze.generator import maze_set
-from waypost_learner.runs.training import embedded
+from waypost_learner.remote.embedded import embedded
 from waypost_server import serving
 from waypost_server.settings import Settings
 

@@ -1,10 +1,9 @@
-"""The paper's algorithms, by the name the command line uses."""
+"""The paper's algorithms by name, and what a learner needs to run each of them."""
 
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any
 
-from waypost.trajectory import State
 from waypost_learner.algorithms.flat_bc import flat_bc
 from waypost_learner.algorithms.flat_dagger import flat_dagger
 from waypost_learner.algorithms.flat_dqn import flat_dqn
@@ -13,49 +12,52 @@ from waypost_learner.algorithms.h_dqn import h_dqn
 from waypost_learner.algorithms.hg_dagger import hg_dagger
 from waypost_learner.algorithms.hg_dagger_q import hg_dagger_q
 from waypost_learner.algorithms.hg_stagger import hg_stagger
-from waypost_learner.algorithms.learner import HIERARCHY, Learner, Structure
+from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.naive_h_dagger import naive_h_dagger
 from waypost_learner.algorithms.queries import Query
-from waypost_learner.policies.datasets import Labels
+from waypost_learner.policies.labels import Labels
+from waypost_learner.policies.levels import HIERARCHY, Levels
+from waypost_learner.rollout.simulator import Start
 
-Episode = Callable[[State, Learner], Generator[Query, Any, Labels]]
+Episode = Callable[[Start, Learner], Generator[Query, Any, Labels]]
+"""One episode of an algorithm: yields queries, receives their answers, and returns what they taught."""
 
 
 @dataclass(frozen=True)
 class Algorithm:
-    """What an episode is, and what a learner consists of."""
+    """One algorithm: its episodes, and which policies its learner has."""
 
     episode: Episode
-    warm_start: Episode | None = None  # what the first episodes are instead
-    structure: Structure = HIERARCHY
-    monitored: bool = False  # whether it asks Inspect_FULL first, and learns nothing of an episode that passed
+    warm_start: Episode | None = None  # replaces `episode` in the first episodes; no warm start if None
+    levels: Levels = HIERARCHY
+    monitored: bool = False  # whether it begins with Inspect_FULL, and learns nothing from episodes that pass
 
     @property
     def interactive(self) -> bool:
-        """Whether it imitates an expert along rollouts of its own, after demonstrations."""
+        """Whether, after a warm start of demonstrations, the expert labels the learner's own rollouts."""
         return self.warm_start is not None
 
 
-_FLAT = Structure(flat=True)
+_FLAT = Levels(flat=True)
 
 ALGORITHMS = {
     "h-bc": Algorithm(h_bc),
     "hg-dagger": Algorithm(hg_dagger, warm_start=h_bc, monitored=True),
     "hg-stagger": Algorithm(hg_stagger, warm_start=h_bc, monitored=True),
     "naive-h-dagger": Algorithm(naive_h_dagger, warm_start=h_bc),
-    "flat-bc": Algorithm(flat_bc, structure=_FLAT),
-    "flat-dagger": Algorithm(flat_dagger, warm_start=flat_bc, structure=_FLAT, monitored=True),
-    "hg-dagger-q": Algorithm(hg_dagger_q, structure=Structure(q_lo=True)),
-    "h-dqn": Algorithm(h_dqn, structure=Structure(q_hi=True, q_lo=True)),
-    "flat-dqn": Algorithm(flat_dqn, structure=Structure(flat=True, q_lo=True)),
+    "flat-bc": Algorithm(flat_bc, levels=_FLAT),
+    "flat-dagger": Algorithm(flat_dagger, warm_start=flat_bc, levels=_FLAT, monitored=True),
+    "hg-dagger-q": Algorithm(hg_dagger_q, levels=Levels(q_lo=True)),
+    "h-dqn": Algorithm(h_dqn, levels=Levels(q_hi=True, q_lo=True)),
+    "flat-dqn": Algorithm(flat_dqn, levels=Levels(flat=True, q_lo=True)),
 }
 
 
 def find_algorithm(name: str) -> Algorithm:
-    """Return an algorithm.
+    """Return the algorithm called `name`.
 
     Raises:
-        ValueError: there is none of that name; the message lists those that exist.
+        ValueError: there is none; the message lists those that exist.
     """
     if name not in ALGORITHMS:
         raise ValueError(f"there is no algorithm {name!r}; those that exist are: {', '.join(sorted(ALGORITHMS))}")

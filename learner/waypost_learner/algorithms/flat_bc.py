@@ -3,15 +3,15 @@
 from collections.abc import Generator
 from typing import Any
 
-from waypost.trajectory import State
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import HierDemo, Query
-from waypost_learner.policies.datasets import Labels
+from waypost_learner.policies.labels import Labels
+from waypost_learner.rollout.simulator import Start
 
 
-def flat_bc(s: State, learner: Learner) -> Generator[Query, Any, Labels]:  # noqa: ARG001 (algorithms share a signature)
-    """Run one episode: the expert carries the task out, and each of its actions is a label."""
+def flat_bc(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:  # noqa: ARG001 (algorithms share a signature)
+    """Run one episode: the expert demonstrates, and each of its actions is a label."""
     labels = Labels()
-    (tau_star,) = yield HierDemo(s, flat=True)
+    (tau_star,) = yield HierDemo(s.state, flat=True)
     labels.append_flat((tau_star,), tau_star.actions)
     return labels

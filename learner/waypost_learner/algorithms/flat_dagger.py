@@ -6,13 +6,13 @@ It "first calls Inspect_FULL, and only requests labels (Label_FULL) if the inspe
 from collections.abc import Generator
 from typing import Any
 
-from waypost.trajectory import State
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import InspectFull, LabelFull, Query
-from waypost_learner.policies.datasets import Labels
+from waypost_learner.policies.labels import Labels
+from waypost_learner.rollout.simulator import Start
 
 
-def flat_dagger(s: State, learner: Learner) -> Generator[Query, Any, Labels]:
+def flat_dagger(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     """Run one episode after the warm start."""
     labels = Labels()
     tau = learner.roll_out(s)

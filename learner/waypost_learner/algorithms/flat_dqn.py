@@ -3,18 +3,18 @@
 from collections.abc import Generator
 from typing import Any
 
-from waypost.trajectory import State
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import Query
-from waypost_learner.policies.datasets import Labels
+from waypost_learner.policies.labels import Labels
 from waypost_learner.rollout import experience
 from waypost_learner.rollout.policy_keys import FLAT
+from waypost_learner.rollout.simulator import Start
 
 
-def flat_dqn(s: State, learner: Learner) -> Generator[Query, Any, Labels]:
-    """Run one episode; all of it becomes experience."""
+def flat_dqn(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
+    """Run one episode, and learn from all of its transitions."""
     labels = Labels()
     (tau,) = learner.roll_out(s)
     labels.append_experience(FLAT, experience.of_actions(tau))
-    yield from ()  # no questions
+    yield from ()  # no queries
     return labels

@@ -3,15 +3,15 @@
 from collections.abc import Generator
 from typing import Any
 
-from waypost.trajectory import State
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import HierDemo, Query
-from waypost_learner.policies.datasets import Labels
+from waypost_learner.policies.labels import Labels
+from waypost_learner.rollout.simulator import Start
 
 
-def h_bc(s: State, learner: Learner) -> Generator[Query, Any, Labels]:  # noqa: ARG001 (algorithms share a signature)
-    """Run one episode, lines 3-7, from the start state s; Train (lines 8-9) follows in `Learner.learn`."""
+def h_bc(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:  # noqa: ARG001 (algorithms share a signature)
+    """Run one episode, lines 3-7, from the start state s. `Learner.learn` does Train (lines 8-9)."""
     labels = Labels()
-    sigma_star = yield HierDemo(s)  # line 4
+    sigma_star = yield HierDemo(s.state)  # line 4
     labels.append_demonstration(sigma_star)  # lines 5-7
     return labels

@@ -6,14 +6,14 @@ Not the human-gated HG-DAgger of Kelly et al. (arXiv 1810.02890), which is anoth
 from collections.abc import Generator
 from typing import Any
 
-from waypost.trajectory import State
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import InspectFull, InspectLo, LabelHi, LabelLo, Query
-from waypost_learner.policies.datasets import Labels
+from waypost_learner.policies.labels import Labels
+from waypost_learner.rollout.simulator import Start
 
 
-def hg_dagger(s: State, learner: Learner) -> Generator[Query, Any, Labels]:
-    """Run one episode after the warm start, lines 4-19; Train (lines 20-21) follows in `Learner.learn`."""
+def hg_dagger(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
+    """Run one episode after the warm start, lines 4-19. `Learner.learn` does Train (lines 20-21)."""
     labels = Labels()
     sigma = learner.roll_out(s)  # lines 5-11
     if not (yield InspectFull(sigma)):  # line 13

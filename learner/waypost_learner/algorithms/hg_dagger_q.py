@@ -3,17 +3,18 @@
 from collections.abc import Generator
 from typing import Any
 
-from waypost.trajectory import State
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import InspectFull, LabelHi, Query
-from waypost_learner.policies.datasets import Labels
+from waypost_learner.policies.labels import Labels
 from waypost_learner.rollout import experience
+from waypost_learner.rollout.policy_keys import pi
+from waypost_learner.rollout.simulator import Start
 
 
-def hg_dagger_q(s: State, learner: Learner) -> Generator[Query, Any, Labels]:
-    """Run one episode, lines 5-22; Train (line 23) follows in `Learner.learn`."""
+def hg_dagger_q(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
+    """Run one episode, lines 5-22. `Learner.learn` does Train (line 23)."""
     labels = Labels()
-    pseudo = learner.preset.dqn.pseudo
+    pseudo = learner.preset.training.dqn.pseudo
     sigma = learner.roll_out(s)  # lines 5-15
     good = sigma
     if not (yield InspectFull(sigma)):  # line 17
@@ -23,5 +24,5 @@ def hg_dagger_q(s: State, learner: Learner) -> Generator[Query, Any, Labels]:
         labels.append_hi(sigma, d_star)  # line 21
     for segment in good:  # lines 20 and 22
         assert segment.subgoal is not None
-        labels.append_experience(segment.subgoal, experience.of_subgoal(segment, pseudo))
+        labels.append_experience(pi(segment.subgoal), experience.of_subgoal(segment, pseudo))
     return labels

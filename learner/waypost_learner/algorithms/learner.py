@@ -1,58 +1,47 @@
-"""A learner: policies, the data they learn from, and rollouts under them."""
+"""A learner: its policies, the data buffers they learn from, and rollouts under them."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import torch
 
-from waypost.domain import Domain, Structured
-from waypost.trajectory import State, Trajectory
-from waypost_learner.policies.datasets import Dataset, Labels
+from waypost.domain import Domain, Structured, Symmetry
+from waypost.trajectory import Trajectory
+from waypost_learner.policies.datasets import Dataset
 from waypost_learner.policies.dqn import QFunction
 from waypost_learner.policies.imitation import Policy
-from waypost_learner.policies.views import sight
+from waypost_learner.policies.labels import (
+    Labels,
+    Rows,
+    Transitions,
+    rows_of,
+    transformed_rows,
+    transformed_transitions,
+    transitions_of,
+)
+from waypost_learner.policies.levels import HIERARCHY, Levels
+from waypost_learner.policies.views import policy_view
 from waypost_learner.presets.base import Preset
-from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
-from waypost_learner.rollout.rollout import Manner, Rollout, flat_rollout, hierarchical_rollout, nowhere_twice, run
-from waypost_learner.rollout.simulator import HeadStart, Simulator
-
-TRAIN, TEST = 0, 1
-"""Streams of randomness: training and test rollouts draw from different ones."""
-_ONE_OF = 6  # another: which segment of a rollout an algorithm asks about
-
-
-@dataclass(frozen=True)
-class Structure:
-    """What a learner consists of: which policies, and which of them are Q-functions."""
-
-    flat: bool = False  # one policy for everything
-    q_hi: bool = False  # the meta-controller is a Q-function
-    q_lo: bool = False  # the subpolicies are, or the flat policy is; subgoals' terminations are then given
-
-    @property
-    def reinforced(self) -> bool:
-        """Whether anything is learned by reinforcement."""
-        return self.q_hi or self.q_lo
-
-
-HIERARCHY = Structure()
-"""The paper's: mu and pi_g, all imitating."""
+from waypost_learner.rollout import streams
+from waypost_learner.rollout.policy_keys import META, PolicyKey
+from waypost_learner.rollout.rollout import Behavior, Rollout, flat_rollout, hierarchical_rollout, run, unique_place
+from waypost_learner.rollout.simulator import HeadStart, Simulator, Start
 
 
 class Learner:
-    """mu and one pi_g with beta_g per subgoal, or one flat policy; and D_HI and D_g, or D.
+    """mu and one pi_g with beta_g per subgoal, or one flat policy, with their data buffers.
 
     Args:
         domain: where to act.
         preset: the values of learning.
         seed: fixes every draw.
-        structure: which policies there are.
-        threads: processor threads to train with; as many as there are if None.
-        head_start: what is carried out before the learner begins; nothing if None.
+        levels: which policies there are, and how each level learns.
+        threads: CPU threads to train with; one per core if None.
+        head_start: gives the actions that are carried out before the learner begins; none if None.
     """
 
     def __init__(
@@ -60,103 +49,103 @@ class Learner:
         domain: Domain,
         preset: Preset,
         seed: int,
-        structure: Structure = HIERARCHY,
+        levels: Levels = HIERARCHY,
         threads: int | None = None,
         head_start: HeadStart | None = None,
     ) -> None:
-        self.domain, self.preset, self.seed, self.structure = domain, preset, seed, structure
+        self.domain, self.preset, self.seed, self.levels = domain, preset, seed, levels
         self._head_start = head_start
-        self.simulator = self.make_simulator()
-        keys = [FLAT] if structure.flat else [META, *range(len(domain.subgoals))]
-        self._sights = {key: sight(domain, preset, key) for key in keys}
-        own = [key for key in keys if self._sights[key].owner == key]
-        self.q = {key: self._q_function(key) for key in own if (structure.q_hi if key == META else structure.q_lo)}
-        self.imitators = {key: self._policy(key) for key in own if key not in self.q}
+        keys = levels.keys(len(domain.subgoals))
+        self.views = {key: policy_view(domain, preset.use, preset.training.network, key) for key in keys}
+        owners = [key for key in keys if self.views[key].owner == key]
+        self.q = {key: self._q_function(key) for key in owners if levels.is_q_function(key)}
+        self.imitators = {key: self._policy(key) for key in owners if key not in self.q}
         self.learned: dict[PolicyKey, Policy | QFunction] = {**self.imitators, **self.q}
-        self.policies = {key: one.through(self.learned[one.owner]) for key, one in self._sights.items()}
-        self.data = {key: Dataset(self._sights[key].view.shape) for key in self.imitators}
-        self._draw = 0
-        self.due: list[PolicyKey] = []  # the policies that will train on
-        # One thread a policy: small networks gain nothing from threads within one operation. What each policy learns
-        # depends on its own data and generator, so the number of threads changes nothing but the time.
+        self.policies = {key: view.wrap(self.learned[view.owner]) for key, view in self.views.items()}
+        self.data = {key: Dataset(self.views[key].view.shape) for key in self.imitators}
+        self.due: list[PolicyKey] = []  # the policies that `train_idle` trains
+        # One thread per policy: small networks gain nothing from threads within one operation. What a policy learns
+        # depends on its own data and generator alone, so the number of threads changes nothing but the time.
         torch.set_num_threads(1)
         self._threads = ThreadPoolExecutor(threads or os.cpu_count(), initializer=torch.set_num_threads, initargs=(1,))
 
     def _policy(self, key: PolicyKey) -> Policy:
-        preset = self.preset
-        hi = preset.train_hi_hybrid if self.structure.q_lo else preset.train_hi
-        train = {META: hi, FLAT: preset.train_flat}.get(key, preset.train_lo)
-        seen = self._sights[key]
-        return Policy(seen.view.shape, self._choices(key), key >= 0, seen.network, train, self._seed(key))
+        training, view = self.preset.training, self.views[key]
+        hi = training.train_hi_hybrid if self.levels.q_lo else training.train_hi
+        train = {"hi": hi, "lo": training.train_lo, "flat": training.train_flat}[key.level]
+        terminates = key.subgoal is not None
+        return Policy(view.view.shape, self._n_choices(key), terminates, view.network, train, self._seed(key))
 
     def _q_function(self, key: PolicyKey) -> QFunction:
-        seen = self._sights[key]
-        return QFunction(seen.view.shape, self._choices(key), seen.network, self.preset.dqn, self._seed(key))
+        view, dqn = self.views[key], self.preset.training.dqn
+        return QFunction(view.view.shape, self._n_choices(key), view.network, dqn, self._seed(key))
 
-    def _choices(self, key: PolicyKey) -> int:
+    def _n_choices(self, key: PolicyKey) -> int:
         return len(self.domain.subgoals if key == META else self.domain.actions)
 
     def _seed(self, key: PolicyKey) -> int:
-        return int(np.random.SeedSequence([self.seed, key + 2]).generate_state(1)[0])
+        # Numbers begin at -2, and a seed sequence takes none below 0.
+        return int(np.random.SeedSequence([self.seed, key.number + 2]).generate_state(1)[0])
+
+    # --- rollouts
 
     def make_simulator(self) -> Simulator:
-        """Return a new simulator, with the head start there may be."""
+        """Return a new simulator, with this learner's head start."""
         return Simulator(self.domain, self._head_start)
 
-    def start(self, instance: Any, draw: int) -> State:
-        """Put the simulator into the start state s of an instance, the run's `draw`-th."""
-        self._draw = draw
-        return self.simulator.reset(instance)
+    def start(self, instance: Any, draw: int) -> Start:
+        """Return the start state s of an instance, which is the run's `draw`-th."""
+        simulator = self.make_simulator()
+        return Start(simulator.reset(instance), instance, draw, simulator)
 
-    def roll_out(self, s: State) -> Trajectory:
-        """Roll out the present policies from s, the start state that `start` returned.
+    def roll_out(self, s: Start) -> Trajectory:
+        """Roll out the present policies from s.
 
-        Q-functions explore, and are updated after each of their choices (Algorithm 3, lines 9 to 11).
+        Q-functions explore, and are updated after their choices (Algorithm 3, lines 9 to 11).
         """
-        del s  # the simulator is in it
-        rollout = self.rollout(self.simulator, self.simulator.instance, TRAIN, self._draw)
-        return run(rollout, self.policies, self._stepped)
+        return run(self.rollout(s.simulator, s.instance, streams.TRAIN, s.draw), self.policies, self._stepped)
 
-    def draw_one(self, sigma: Trajectory) -> int:
-        """Return the number of a segment of the rollout that was just made, each as likely."""
-        return int(np.random.default_rng([self.seed, _ONE_OF, self._draw]).integers(len(sigma)))
+    def draw_one(self, s: Start, sigma: Trajectory) -> int:
+        """Return the position of a random segment of sigma, rolled out from s; all are equally likely."""
+        return int(np.random.default_rng([self.seed, streams.SEGMENT, s.draw]).integers(len(sigma)))
 
     def _stepped(self, key: PolicyKey) -> None:
-        owner = self._sights[key].owner
+        owner = self.views[key].owner
         if owner in self.q:
             self.q[owner].step()
 
     def rollout(self, simulator: Simulator, instance: Any, stream: int, number: int) -> Rollout:
-        """Return a rollout whose choices depend on the seed, the stream and its number in it alone."""
-        rng = np.random.default_rng([self.seed, stream, number])
-        exploring = {key: self.q[one.owner] for key, one in self._sights.items() if one.owner in self.q}
-        manner = Manner(
-            self.preset.choosing,
-            rng,
-            self.preset.h_hi or self.domain.horizons.hi,
-            {key: q.epsilon if stream == TRAIN else 0.0 for key, q in exploring.items()},
-            self.structure.q_lo,
-            self.preset.repeat_penalty,
-            self.domain.place if isinstance(self.domain, Structured) else nowhere_twice,
+        """Return a rollout under the present policies, ready to be run.
+
+        Args:
+            simulator: the environment to use.
+            instance: where to start.
+            stream: `streams.TRAIN`, where Q-functions explore, or `streams.TEST`.
+            number: of the rollout in its stream; with the seed and the stream it fixes every random choice.
+        """
+        exploring = {key: self.q[view.owner] for key, view in self.views.items() if view.owner in self.q}
+        rollouts = self.preset.rollouts
+        behavior = Behavior(
+            rollouts.choosing,
+            np.random.default_rng([self.seed, stream, number]),
+            rollouts.h_hi or self.domain.horizons.hi,
+            {key: q.epsilon if stream == streams.TRAIN else 0.0 for key, q in exploring.items()},
+            self.levels.q_lo,
+            rollouts.repeat_penalty,
+            self.domain.place if isinstance(self.domain, Structured) else unique_place,
         )
-        roll_out = flat_rollout if self.structure.flat else hierarchical_rollout
-        return roll_out(simulator, instance, manner)
+        roll_out = flat_rollout if self.levels.flat else hierarchical_rollout
+        return roll_out(simulator, instance, behavior)
+
+    # --- learning
 
     def learn(self, labels: Labels) -> None:
         """Append to the data buffers, then Train the policies whose turn it is (docs/paper.md, deviation 6)."""
         sizes = {key: len(data) for key, data in self.data.items()}
-        if self.preset.relabeling and isinstance(self.domain, Structured):
-            labels.relabel(self.domain)
-        for seen in self._symmetric(labels, self.preset.symmetries):
-            for key, rows in seen.rows.items():
-                if key in self.data:  # what is tied to another is learned from in its place
-                    observe = self._sights[key].view.observe
-                    self.data[key].append(replace(row, observation=observe(row.observation)) for row in rows)
-        for seen in self._symmetric(labels, bool(labels.transitions) and self.preset.dqn.symmetries):
-            for key, transitions in seen.transitions.items():
-                if key in self.q:
-                    observe = self._sights[key].view.observe
-                    self.q[key].replay.add(one.seen(observe) for one in transitions)
+        use, dqn = self.preset.use, self.preset.training.dqn
+        relabeling = self.domain if use.relabeling and isinstance(self.domain, Structured) else None
+        self._append_rows(rows_of(labels, relabeling), self.domain.symmetries if use.symmetries else ())
+        self._append_transitions(transitions_of(labels), self.domain.symmetries if dqn.symmetries else ())
         self.due = [
             key
             for key, policy in self.imitators.items()
@@ -164,13 +153,26 @@ class Learner:
         ]
         list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), self.due))
 
-    def train_on(self) -> None:
-        """Train on what the last episode brought, once, where the preset has it so: while the expert is busy."""
-        list(self._threads.map(lambda key: self.imitators[key].train_on(self.data[key]), self.due))
+    def train_idle(self) -> None:
+        """Train the policies of the last `learn` once more, by their preset's `idle` rows, while the expert is busy."""
+        list(self._threads.map(lambda key: self.imitators[key].train_idle(self.data[key]), self.due))
         self.due = []
 
-    def _symmetric(self, labels: Labels, symmetric: bool) -> Iterator[Labels]:
-        """Yield labels as they are, and as they are in each symmetry of the domain, if so."""
-        yield labels
-        if symmetric:
-            yield from map(labels.seen_through, self.domain.symmetries)
+    def _append_rows(self, rows: Rows, symmetries: Sequence[Symmetry]) -> None:
+        """Append rows to the buffers, then the same rows in each symmetry.
+
+        Rows of a policy that is tied to another are not kept: a symmetry gives them to the other.
+        """
+        for each in (None, *symmetries):
+            for key, found in (rows if each is None else transformed_rows(rows, each)).items():
+                if key in self.data:
+                    observe = self.views[key].view.observe
+                    self.data[key].append(replace(row, observation=observe(row.observation)) for row in found)
+
+    def _append_transitions(self, transitions: Transitions, symmetries: Sequence[Symmetry]) -> None:
+        """Append transitions to the replay buffers, then the same transitions in each symmetry."""
+        for each in (None, *symmetries):
+            for key, found in (transitions if each is None else transformed_transitions(transitions, each)).items():
+                if key in self.q:
+                    observe = self.views[key].view.observe
+                    self.q[key].replay.add(one.observed(observe) for one in found)

@@ -1,20 +1,20 @@
-"""What an algorithm can ask: the paper's six verbs (section 3), and what comes back.
+"""The queries of the algorithms: the paper's six verbs (section 3).
 
-An algorithm yields one of these and receives the answer named in its docstring. Who answers, where, and what it costs
-is none of its business.
+An algorithm yields a query and receives the answer that is named in the query's docstring. It does not know who
+answers, where, and at what price.
 """
 
 from dataclasses import dataclass
 
 from waypost.trajectory import Action, Segment, State, Subgoal, Trajectory
-from waypost_learner.policies.datasets import LoLabels
+from waypost_learner.policies.labels import LoLabels
 
 
 @dataclass(frozen=True)
 class HierDemo:
     """HierDemo(s): the expert's own hierarchical trajectory from s. Answer: `Trajectory`.
 
-    For a flat learner it is one segment without a subgoal.
+    If `flat`, it is one segment without a subgoal.
     """
 
     state: State
@@ -32,8 +32,8 @@ class InspectFull:
 class LabelHi:
     """Label_HI(tau_HI): a good subgoal at each s_h. Answer: `tuple[Subgoal, ...]`.
 
-    An expert returns the learner's own choice where it is as good as any. Of an episode from its start, or of a part,
-    with what came `before`.
+    Where the learner's own choice is as good as the best, the expert returns it. The trajectory is an episode from its
+    start, or a part of one that comes after the segments `before`.
     """
 
     trajectory: Trajectory

@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.progress import TaskID
 
 from waypost_learner.commands import (
+    JsonOption,
     PatienceOption,
     ServerOption,
     TokenOption,
@@ -19,8 +20,8 @@ from waypost_learner.commands import (
     learner_errors,
     needed,
     progress_bar,
+    refuse,
 )
-from waypost_server.cli import JsonOption, refuse
 
 if TYPE_CHECKING:
     from waypost_learner.experiments.sweep import Progress
@@ -53,6 +54,7 @@ def figures(
     with learner_errors():
         from waypost_learner.experiments.figures import archive, make
         from waypost_learner.experiments.figures import store as stores
+        from waypost_learner.remote.embedded import stored_runs
 
         name = str(store) if store is not None else "runs.db"
         request = make.Request(figure, parse_seeds(seeds), out, report, name, tuple(archives or ()))
@@ -61,7 +63,7 @@ def figures(
             stack.enter_context(Console(stderr=True).status("Reading runs."))
             sources = [archive.read(folder) for folder in archives or []]
             if store is not None:
-                sources.insert(0, stores.read(stack.enter_context(stores.stored(store)), wanted))
+                sources.insert(0, stores.read(stack.enter_context(stored_runs(store)), wanted))
             if server is not None:
                 client = stack.enter_context(stores.served(server, needed(token)))
                 sources.insert(0, stores.read(client, wanted))
@@ -101,11 +103,11 @@ def sweep(
         from waypost_learner.experiments import plan
         from waypost_learner.experiments import sweep as sweeping
         from waypost_learner.experiments.figures import archive
-        from waypost_learner.runs.training import build_learner
+        from waypost_learner.runs.setup import set_up
 
         runs = plan.runs_of(plan.find_figure(figure), parse_seeds(seeds))
         runs = [replace(run, episodes=episodes or run.episodes, preset=preset or run.preset) for run in runs]
-        build_learner(runs[0], threads=1)  # says what is wrong before there is a store
+        set_up(runs[0], threads=1)  # says what is wrong before there is a store
         there = {config for folder in archives or [] for config, run in archive.read(folder).items() if run.complete}
         todo = [run for run in runs if run not in there]
         place = sweeping.Place(

@@ -16,8 +16,10 @@ from typing import Any
 import joblib
 
 from waypost import wire
-from waypost_learner.runs.config import TrainConfig
-from waypost_learner.runs.training import Connection, RunOptions, config_values, embedded, remote, train
+from waypost_learner.remote.connection import Connection, connected
+from waypost_learner.remote.embedded import embedded
+from waypost_learner.runs.config import TrainConfig, config_values
+from waypost_learner.runs.training import RunOptions, train
 
 POLL_SECONDS = 2.0
 
@@ -36,7 +38,7 @@ class Place:
         """Connect; an oracle in the same process answers."""
         if self.store is not None:
             return embedded(self.store)
-        return remote(self.server, self.token, answers_here=True, patience=self.patience)
+        return connected(self.server, self.token, answers_here=True, patience=self.patience)
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
-"""The oracle bot: a REST client that leases queries and answers them with a domain's oracle.
+"""The oracle bot: an annotator program that leases queries and answers them with the oracle of their domain.
 
-To rehearse with imperfect experts it can err at a rate (`error_rate`) and take its time (`seconds`). An erring answer
-is a valid one, drawn at random from the answers of that kind.
+To simulate imperfect experts it can give wrong answers (`error_rate`) and answer slowly (`seconds`). A wrong answer is
+valid: its labels are drawn at random.
 """
 
 import time
@@ -16,23 +16,28 @@ from waypost.domain import Domain, find_domain
 from waypost_learner.experts.oracle import OracleExpert
 
 _LOST = frozenset({"lease-expired", "lease-ended", "query-cancelled"})
-"""Refusals that mean: somebody else has this query now, go on with the next."""
+"""Refusals after which the bot continues with the next query, because somebody else has this one."""
 
 
 @dataclass(frozen=True)
 class BotSettings:
-    """How a bot works."""
+    """Which queries a bot answers, how well and how fast."""
 
     run: str | None = None  # only this run
     kinds: tuple[wire.Kind, ...] | None = None  # only these kinds
-    error_rate: float = 0.0  # share of answers that are random ones
-    seconds: float = 0.0  # how long it thinks about each answer
-    defer: float = 0.0  # leaves queries this long to people who are at work
-    seed: int = 0  # of its errors
+    error_rate: float = 0.0  # share of answers with random labels
+    seconds: float = 0.0  # before each answer
+    defer: float = 0.0  # seconds for which it leaves queries to people who are working
+    seed: int = 0  # of its wrong answers
 
 
 class Bot:
-    """Answers with the oracle of whatever domain a run has."""
+    """Answers queries with the oracle of their run's domain.
+
+    Args:
+        client: of a user who may answer.
+        settings: which queries to answer and how; all of them, correctly and at once, if None.
+    """
 
     def __init__(self, client: Client, settings: BotSettings | None = None) -> None:
         self._client, self._settings = client, settings or BotSettings()
@@ -41,21 +46,21 @@ class Bot:
         self._rng = np.random.default_rng(self._settings.seed)
 
     def work(self, wait: float = 20.0, on_answer: Callable[[wire.Receipt], None] = lambda _: None) -> None:
-        """Answer queries until there has been none for `wait` seconds."""
-        assignment = self._client.lease(self._wish(wait))
+        """Answer queries until none arrives for `wait` seconds."""
+        assignment = self._client.lease(self._lease(wait))
         while assignment is not None:
-            receipt = self._answer(assignment, self._wish(0))
+            receipt = self._answer(assignment, self._lease(0))
             if receipt is not None:
                 on_answer(receipt)
             following = receipt.next if receipt is not None else None
-            assignment = following or self._client.lease(self._wish(wait))
+            assignment = following or self._client.lease(self._lease(wait))
 
     def work_forever(self, on_answer: Callable[[wire.Receipt], None] = lambda _: None) -> None:
         """Answer queries until interrupted."""
         while True:
             self.work(on_answer=on_answer)
 
-    def _wish(self, wait: float) -> wire.Lease:
+    def _lease(self, wait: float) -> wire.Lease:
         kinds = self._settings.kinds
         return wire.Lease(
             wait=wait,
@@ -94,7 +99,7 @@ class Bot:
             case wire.LabelFullAnswer():
                 return answer.model_copy(update={"actions": [self._any(names.actions) for _ in answer.actions]})
             case wire.HierDemoAnswer():
-                return answer  # a demonstration is carried out in the environment, which leaves no room for slips
+                return answer  # random actions would be no demonstration
 
     def _any(self, names: list[str]) -> str:
         return names[int(self._rng.integers(len(names)))]

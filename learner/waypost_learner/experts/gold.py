@@ -1,4 +1,4 @@
-"""Gold queries out of a run's own: what was asked, with all that is right by the domain's oracle."""
+"""Turn a run's own answered queries into gold queries, with the right answers from the domain's oracle."""
 
 from waypost import wire
 from waypost.client import Client
@@ -7,7 +7,14 @@ from waypost_learner.experts.solutions import solve
 
 
 def make_gold(client: Client, run: str, queries: int) -> int:
-    """Make answered queries of a run gold, the newest first and no demonstrations; returns how many are gold now.
+    """Make answered queries of a run gold, and return how many gold queries the run has now.
+
+    Demonstrations cannot be gold.
+
+    Args:
+        client: of a user who may edit the run.
+        run: the run's id.
+        queries: how many of its answered queries, newest first.
 
     Raises:
         ValueError: the run's domain has no oracle, or is not installed.

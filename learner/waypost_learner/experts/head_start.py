@@ -1,4 +1,4 @@
-"""A head start: the first part of an optimal trajectory (paper, appendix: what h-DQN was given to succeed at all)."""
+"""Head starts: the first part of an optimal trajectory, without which h-DQN does not succeed (paper, appendix)."""
 
 from collections.abc import Sequence
 from functools import lru_cache
@@ -11,7 +11,11 @@ from waypost_learner.rollout.simulator import HeadStart, Simulator
 
 
 def head_start(domain: Domain, share: float) -> HeadStart:
-    """Return what the oracle of a domain does first on an instance: this share of its actions, rounded down.
+    """Return a function from an instance to the first actions of the oracle's demonstration on it.
+
+    Args:
+        domain: whose oracle demonstrates.
+        share: of the demonstration's actions, rounded down.
 
     Raises:
         ValueError: the domain has no oracle, or the share is not between 0 and 1.

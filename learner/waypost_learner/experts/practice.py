@@ -1,4 +1,4 @@
-"""Practice queries: a learner that errs now and then, asked about, with what is right by the domain's oracle."""
+"""Make practice queries: rollouts of a learner that sometimes errs, with the right answers from the domain's oracle."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -10,20 +10,20 @@ import numpy as np
 
 from waypost import wire
 from waypost.domain import Domain
-from waypost.trajectory import Segment, Trajectory, n_actions
+from waypost.trajectory import Segment, Trajectory, n_steps
 from waypost_learner.algorithms.queries import InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, Query
 from waypost_learner.experts.solutions import solve
 from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
 
-WRONG_SUBGOAL, WRONG_ACTION, WRONG_END = 0.12, 0.04, 0.1  # how often the learner errs
-CANDIDATES = 150  # rollouts that the exercises are picked from
-MOST_ACTIONS, MOST_SEGMENTS = 14, 6  # an exercise is short
+WRONG_SUBGOAL, WRONG_ACTION, WRONG_END = 0.12, 0.04, 0.1  # probabilities of the learner's errors
+CANDIDATES = 150  # rollouts from which the exercises are picked
+MOST_ACTIONS, MOST_SEGMENTS = 14, 6  # of one exercise
 
 
 @dataclass(frozen=True)
 class Rollout:
-    """What the erring learner did on an instance."""
+    """One rollout of the erring learner."""
 
     instance: Any
     sigma: Trajectory
@@ -31,26 +31,31 @@ class Rollout:
 
 
 def practice(domain: Domain, instances: str, seed: int) -> str:
-    """Return the text of the file of practice queries: two of each kind, as far as the rollouts have them.
+    """Return the text of a file of practice queries: two of each kind, if the rollouts contain suitable ones.
+
+    Args:
+        domain: whose oracle marks them.
+        instances: the name of a set of instances, or a file.
+        seed: fixes the rollouts.
 
     Raises:
-        ValueError: the domain has no oracle, or nothing to pick from came of the rollouts.
+        ValueError: the domain has no oracle, or no rollout is suitable.
     """
     rollouts = list(islice(_rollouts(domain, instances, seed), CANDIDATES))
     picks = [pick for pick in _picks() if domain.subgoals or pick.flat]
     found = [_exercise(domain, rollouts, place, pick) for place, pick in enumerate(picks)]
     exercises = [one for one in found if one is not None]
     if not exercises:
-        raise ValueError("the rollouts gave nothing to practice on: try another --seed")
+        raise ValueError("no rollout is suitable for practice: try another --seed")
     lines = ",\n".join(json.dumps(one, ensure_ascii=False) for one in exercises)
     return f'{{"vocabulary": {vocabulary(domain).model_dump_json()},\n"exercises": [\n{lines}\n]}}\n'
 
 
 def _rollouts(domain: Domain, instances: str, seed: int) -> Iterator[Rollout]:
-    """Yield what a learner does that mostly follows the oracle."""
+    """Yield rollouts of a learner that mostly follows the oracle."""
     oracle, rng, simulator = domain.oracle, np.random.default_rng(seed), Simulator(domain)
     if oracle is None:
-        raise ValueError(f"the domain {domain.name!r} has no oracle: nothing is known of its answers")
+        raise ValueError(f"the domain {domain.name!r} has no oracle, so its right answers are not known")
     train = domain.instances(instances).train
     while True:
         instance = train[int(rng.integers(len(train)))]
@@ -76,11 +81,11 @@ def _rollouts(domain: Domain, instances: str, seed: int) -> Iterator[Rollout]:
 
 @dataclass(frozen=True)
 class Pick:
-    """Which query to make an exercise of: the one for which `worth` is highest, if it is above 0."""
+    """How to pick one exercise: the query of a rollout whose `worth` is highest, if that is above 0."""
 
     queries: Callable[[Rollout], Iterator[Query]]
     worth: Callable[[wire.Known, wire.Ask], float]
-    flat: bool = False  # needs no subgoals
+    flat: bool = False  # whether it also suits domains without subgoals
 
 
 def _picks() -> list[Pick]:
@@ -112,7 +117,7 @@ def _exercise(domain: Domain, rollouts: list[Rollout], place: int, pick: Pick) -
     return best[1] or None
 
 
-# --- the queries of a rollout that are short enough
+# --- the queries of a rollout
 
 
 def _inspect_full(rollout: Rollout) -> Iterator[Query]:
@@ -135,11 +140,11 @@ def _label_lo(rollout: Rollout) -> Iterator[Query]:
 
 
 def _label_full(rollout: Rollout) -> Iterator[Query]:
-    if 4 <= n_actions(rollout.sigma) <= MOST_ACTIONS:
+    if 4 <= n_steps(rollout.sigma) <= MOST_ACTIONS:
         yield LabelFull(rollout.sigma)
 
 
-# --- what makes an exercise a good one
+# --- the worth of a query as an exercise
 
 
 def _is(known: wire.Known, verdict: str) -> bool:
@@ -155,17 +160,17 @@ def _right(known: wire.Known) -> list[list[str]]:
 
 
 def _errors(known: wire.Known, ask: wire.Ask) -> int:
-    """Count the labels in which the learner's own choice is wrong."""
+    """Return in how many labels the learner's own choice is wrong."""
     suggestion: Any = ask.suggestion
     own = suggestion.subgoals if isinstance(known, wire.KnownSubgoals) else suggestion.actions
     return sum(choice not in right for choice, right in zip(own, _right(known), strict=False))
 
 
 def _choices(known: wire.Known) -> int:
-    """Count the labels in which several choices are right."""
+    """Return in how many labels several choices are right."""
     return sum(len(right) > 1 for right in _right(known))
 
 
 def _ends_early(known: wire.Known, ask: wire.Ask) -> bool:
-    """Say whether the segment should have ended before it did, but not at once."""
+    """Return whether the segment should have ended earlier, but not in its first state."""
     return isinstance(known, wire.KnownSegment) and known.end is not None and 0 < known.end < _length(ask)

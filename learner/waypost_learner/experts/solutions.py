@@ -1,8 +1,9 @@
-"""All that is right, and why: a domain's oracle on queries whose answers are to be known beforehand.
+"""Find every right answer to a query, and the reasons, from a domain's oracle.
 
-Gold queries and practice are marked against it. Unlike an answer it has every choice that is as good as the best.
+Gold queries and practice queries are marked against a solution. `OracleExpert` picks its answer from it.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,35 +13,31 @@ from waypost.domain import Domain, Oracle
 
 @dataclass(frozen=True)
 class Solution:
-    """What is right for a query, and why, label by label."""
+    """The right choices of each label of a query, and one reason per label."""
 
     known: wire.Known
     reasons: tuple[str, ...]
 
 
 def solve(domain: Domain, ask: wire.Ask) -> Solution:
-    """Return what is right for a query.
+    """Return all that is right for a query. The first right choice of a label is the oracle's preferred one.
 
     Raises:
-        ValueError: the domain has no oracle, or the query is a demonstration, of which many are as good.
+        ValueError: the domain has no oracle, or the query is a demonstration, which many answers fulfil equally well.
     """
     if domain.oracle is None:
-        raise ValueError(f"the domain {domain.name!r} has no oracle: nothing is known of its answers")
+        raise ValueError(f"the domain {domain.name!r} has no oracle, so its right answers are not known")
     match ask:
         case wire.AskInspectFull():
             passed = domain.oracle.succeeded(ask.instance, ask.segments[-1].states[-1])
-            why = (
-                "The task is accomplished in the last state."
-                if passed
-                else "The task is not accomplished in the last state."
-            )
-            return Solution(_verdict(ask.kind, passed), (why,))
+            reason = f"The task is {_accomplished(passed)} in the last state."
+            return Solution(_verdict(ask.kind, passed), (reason,))
         case wire.AskInspectLo():
             (segment,) = ask.segments
             first, last = segment.states[0], segment.states[-1]
             passed = domain.oracle.reached(ask.instance, first, last, _subgoal(domain, segment))
-            done = "is accomplished" if passed else "is not accomplished"
-            return Solution(_verdict(ask.kind, passed), (f"In the last state {_quoted(segment.subgoal)} {done}.",))
+            reason = f"In the last state {_quoted(segment.subgoal)} is {_accomplished(passed)}."
+            return Solution(_verdict(ask.kind, passed), (reason,))
         case wire.AskLabelHi():
             return _subgoals(domain, domain.oracle, ask)
         case wire.AskLabelLo():
@@ -48,7 +45,7 @@ def solve(domain: Domain, ask: wire.Ask) -> Solution:
         case wire.AskLabelFull():
             return _actions(domain, domain.oracle, ask)
         case wire.AskHierDemo():
-            raise ValueError("a demonstration cannot be known beforehand: many are as good")
+            raise ValueError("a demonstration has no single right answer: many are equally good")
 
 
 def _subgoals(domain: Domain, oracle: Oracle, ask: wire.AskLabelHi) -> Solution:
@@ -56,35 +53,39 @@ def _subgoals(domain: Domain, oracle: Oracle, ask: wire.AskLabelHi) -> Solution:
     for segment in ask.segments:
         names = [domain.subgoals[good] for good in oracle.good_subgoals(ask.instance, segment.states[0])]
         right.append(names)
-        reasons.append(_why(names, segment.subgoal, "leads on by a shortest way from here"))
+        reasons.append(_reason(names, segment.subgoal, "leads on by a shortest way from here"))
     return Solution(wire.KnownSubgoals(kind="label_hi", subgoals=right), tuple(reasons))
 
 
 def _segment(domain: Domain, oracle: Oracle, ask: wire.AskLabelLo) -> Solution:
+    """Return the right actions up to where the segment should end, which is where its labels end."""
     (segment,) = ask.segments
-    origin, subgoal = segment.states[0], _subgoal(domain, segment)
-    right, reasons = list[list[str]](), list[str]()
-    for step, state in enumerate(segment.states):
+    origin, subgoal, name = segment.states[0], _subgoal(domain, segment), _quoted(segment.subgoal)
+    right, reasons, end = list[list[str]](), list[str](), None
+    for step, (state, own) in enumerate(zip(segment.states, [*segment.actions, None], strict=False)):
         if oracle.reached(ask.instance, origin, state, subgoal):
-            reasons.append(f"Here {_quoted(segment.subgoal)} is accomplished, so the segment should end.")
-            return Solution(wire.KnownSegment(kind="label_lo", actions=right, end=step), tuple(reasons))
+            reasons.append(f"Here {name} is accomplished, so the segment should end.")
+            end = step
+            break
+        if own is None:
+            reasons.append(f"In the last state {name} is not accomplished yet.")
+            break
         good = oracle.good_actions(ask.instance, origin, state, subgoal)
-        if not good and step < len(segment.actions):
-            reasons.append(f"There is no way to {_quoted(segment.subgoal)} from here, so the segment should end.")
-            return Solution(wire.KnownSegment(kind="label_lo", actions=right, end=step), tuple(reasons))
-        if step < len(segment.actions):
-            names = [domain.actions[action] for action in good]
-            right.append(names)
-            reasons.append(_why(names, segment.actions[step], f"brings {_quoted(segment.subgoal)} nearer"))
-    reasons.append(f"In the last state {_quoted(segment.subgoal)} is not accomplished yet.")
-    return Solution(wire.KnownSegment(kind="label_lo", actions=right, end=None), tuple(reasons))
+        if not good:
+            reasons.append(f"There is no way to {name} from here, so the segment should end.")
+            end = step
+            break
+        names = [domain.actions[action] for action in good]
+        right.append(names)
+        reasons.append(_reason(names, own, f"brings {name} nearer"))
+    return Solution(wire.KnownSegment(kind="label_lo", actions=right, end=end), tuple(reasons))
 
 
 def _actions(domain: Domain, oracle: Oracle, ask: wire.AskLabelFull) -> Solution:
     right, reasons = list[list[str]](), list[str]()
     for segment in ask.segments:
         for state, own in zip(segment.states, segment.actions, strict=False):
-            # On a shortest way to the end are just the good actions toward each of the good subgoals.
+            # An action is on a shortest way to the goal if it is good toward one of the good subgoals.
             good = {
                 action: None
                 for subgoal in oracle.good_subgoals(ask.instance, state)
@@ -92,15 +93,21 @@ def _actions(domain: Domain, oracle: Oracle, ask: wire.AskLabelFull) -> Solution
             }
             names = [domain.actions[action] for action in good]
             right.append(names)
-            reasons.append(_why(names, own, "is on a shortest way"))
+            reasons.append(_reason(names, own, "is on a shortest way"))
     return Solution(wire.KnownActions(kind="label_full", actions=right), tuple(reasons))
 
 
-def _why(right: list[str], own: str | None, does: str) -> str:
-    """Say why some choices are right, and what that makes of the learner's own."""
+def _reason(right: Sequence[str], own: str | None, does: str) -> str:
+    """Return why some choices are right, and that the learner's own is not, if it is not."""
     first, *others = (_quoted(name) for name in right)
-    why = f"{first} {does}" + (f"; {' and '.join(others)} is as good." if others else ".")
-    return why if own is None or own in right else f"{why} {_quoted(own)}, the learner's choice, does not do that."
+    reason = f"{first} {does}" + (f"; {' and '.join(others)} is as good." if others else ".")
+    return (
+        reason if own is None or own in right else f"{reason} {_quoted(own)}, the learner's choice, does not do that."
+    )
+
+
+def _accomplished(passed: bool) -> str:
+    return "accomplished" if passed else "not accomplished"
 
 
 def _quoted(name: str | None) -> str:

@@ -1,8 +1,7 @@
-"""mu, pi_g and beta_g as networks, and the paper's Train(policy, D).
+"""Policies that imitate: mu, pi_g with beta_g, and flat policies as networks, and the paper's Train(policy, D).
 
-A `Policy` chooses among n alternatives: subgoals for mu, actions for pi_g and for a flat policy. With `terminates` it
-has one more output, the logit of beta_g ("one can also view the subgoal termination classifier as an extra head of the
-subgoal policy network", appendix).
+mu chooses among subgoals; pi_g and flat policies choose among actions. beta_g is one more output of pi_g ("one can also
+view the subgoal termination classifier as an extra head of the subgoal policy network", appendix).
 """
 
 import math
@@ -16,32 +15,32 @@ from torch.nn import functional
 from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 
 from waypost_learner.policies.datasets import UNLABELED, Dataset
-from waypost_learner.policies.device import DEVICE, has_bf16, laid_out, mixed_precision
+from waypost_learner.policies.device import DEVICE, has_bf16, mixed_precision, to_device
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec, build_network
 from waypost_learner.rollout.rollout import Outputs
 
 
 @dataclass(frozen=True)
 class TrainSpec:
-    """How Train works."""
+    """The values of Train."""
 
     learning_rate: float = 5e-4
-    batch: int = 32
-    passes: int = 1  # over the buffer in a round,
-    least: int = 1024  # but so many rows at least: a small buffer is passed over more often,
-    most: int = 6144  # and so many at most
-    idle: int = 0  # rows more (`train_on`), after the expert has been put the next question
+    batch: int = 32  # rows
+    passes: int = 1  # over the buffer in each call of Train
+    least: int = 1024  # fewest rows in each call: a small buffer is passed over more often
+    most: int = 6144  # most rows in each call
+    idle: int = 0  # further rows, trained on while the expert answers the next query
     dropout: float = 0.5
     weight_decay: float = 0.0
-    averaging: float | None = None  # what acts is the average of the weights after each update, decaying at this rate
-    every_episode: bool = False  # rather than only after episodes that added to the buffer
-    bf16: bool = True  # mixed precision where the processor has bf16 arithmetic
+    averaging: float | None = None  # decay of the average of the weights, which then acts; no average if None
+    every_episode: bool = False  # whether to train after each episode, also if it added nothing to the buffer
+    bf16: bool = True  # mixed precision where the device supports bf16
 
     def __post_init__(self) -> None:
         """Refuse numbers with which nothing could be trained.
 
         Raises:
-            ValueError: with what to write instead.
+            ValueError: a number is out of its range; the message gives the ranges.
         """
         if min(self.batch, self.most) < 1 or min(self.passes, self.least, self.idle) < 0:
             raise ValueError("training takes batch and most from 1 on, and passes, least and idle from 0 on")
@@ -50,20 +49,29 @@ class TrainSpec:
 
 
 class Policy:
-    """A network that chooses among `choices` alternatives, with its optimizer and its place in the data."""
+    """A policy network with its optimizer and its random generator.
+
+    Args:
+        observation_shape: of what it is given.
+        n_choices: how many subgoals or actions it chooses from.
+        terminates: whether it has one more output, the logit of beta_g.
+        network: the network's form.
+        train: the values of Train.
+        seed: fixes initial weights, dropout and the order of rows.
+    """
 
     def __init__(
         self,
         observation_shape: tuple[int, ...],
-        choices: int,
+        n_choices: int,
         terminates: bool,
         network: NetworkSpec | PlanningSpec,
         train: TrainSpec,
         seed: int,
     ) -> None:
-        self.choices, self.terminates, self.spec = choices, terminates, train
+        self.n_choices, self.terminates, self.spec = n_choices, terminates, train
         self.rng = torch.Generator().manual_seed(seed)
-        outputs = choices + int(terminates)
+        outputs = n_choices + int(terminates)
         self.network = build_network(observation_shape, outputs, network, train.dropout, self.rng).to(DEVICE)
         self.optimizer = torch.optim.AdamW(
             self.network.parameters(), lr=train.learning_rate, weight_decay=train.weight_decay, fused=True
@@ -77,25 +85,25 @@ class Policy:
 
     @property
     def acting(self) -> nn.Module:
-        """The network that acts: the one that is trained, or the average of what it was."""
+        """The network that acts: the trained one, or the average of its weights over the updates."""
         return self.network if self.average is None else self.average.module
 
     @torch.inference_mode()
     def __call__(self, observations: NDArray[np.float32]) -> Outputs:
-        """Evaluate float32[B, observation shape]."""
+        """Return the outputs for a batch float32[B, observation shape]."""
         out = self.acting(torch.from_numpy(observations).to(DEVICE)).cpu()
-        fires = torch.sigmoid(out[:, -1]) if self.terminates else torch.zeros(len(out))
-        return Outputs(out[:, : self.choices].numpy(), fires.numpy())
+        termination = torch.sigmoid(out[:, -1]) if self.terminates else torch.zeros(len(out))
+        return Outputs(out[:, : self.n_choices].numpy(), termination.numpy())
 
     def train(self, data: Dataset) -> None:
-        """Train(policy, D): a few passes over the data, each in a random order of its own."""
-        self._go_through(data, min(max(self.spec.passes * len(data), self.spec.least), self.spec.most))
+        """Train(policy, D): make a few passes over the data, each in a new random order."""
+        self._fit(data, min(max(self.spec.passes * len(data), self.spec.least), self.spec.most))
 
-    def train_on(self, data: Dataset) -> None:
-        """Train on in the same way, while the expert is at the next question."""
-        self._go_through(data, self.spec.idle)
+    def train_idle(self, data: Dataset) -> None:
+        """Train in the same way on `idle` further rows, while the expert answers the next query."""
+        self._fit(data, self.spec.idle)
 
-    def _go_through(self, data: Dataset, n_rows: int) -> None:
+    def _fit(self, data: Dataset, n_rows: int) -> None:
         if not len(data) or not n_rows:
             return
         spec = self.spec
@@ -105,7 +113,7 @@ class Policy:
         for rows in torch.split(order, spec.batch):
             observations, labels = data[rows.tolist()]
             with mixed_precision(self.bf16):
-                out = self.network(laid_out(observations))
+                out = self.network(to_device(observations))
             loss = self._loss(out.float(), labels.to(DEVICE))
             self.optimizer.zero_grad()
             torch.autograd.backward(loss)
@@ -115,14 +123,14 @@ class Policy:
         self.network.eval()
 
     def _loss(self, out: torch.Tensor, labels: torch.Tensor) -> torch.Tensor:
-        """Cross-entropy of the choices plus that of the terminations, over the rows where each is labeled."""
+        """Return the cross-entropies of choices and of terminations over labeled rows, divided by the batch size."""
         choices, terminations = labels[:, 0], labels[:, 1]
-        loss = functional.cross_entropy(out[:, : self.choices], choices, ignore_index=UNLABELED, reduction="sum") / len(
-            labels
-        )
+        loss = functional.cross_entropy(
+            out[:, : self.n_choices], choices, ignore_index=UNLABELED, reduction="sum"
+        ) / len(labels)
         if self.terminates:
             labeled = terminations != UNLABELED
             loss = loss + functional.binary_cross_entropy_with_logits(
-                out[:, self.choices], terminations.clamp(min=0).float(), labeled.float(), reduction="sum"
+                out[:, self.n_choices], terminations.clamp(min=0).float(), labeled.float(), reduction="sum"
             ) / len(labels)
         return loss

@@ -1,4 +1,4 @@
-"""The network of Table 1, its sizes being values of a preset; and a plain one for domains that are not pictures."""
+"""Networks: the one of Table 1, one that plans over the places of a view, and one for observations that are vectors."""
 
 from dataclasses import dataclass
 
@@ -11,23 +11,23 @@ from waypost.domain import Grid
 
 @dataclass(frozen=True)
 class NetworkSpec:
-    """Table 1: blocks of two 3x3 convolutions and a 2x2 max-pool, one fully connected layer, the output layer."""
+    """Sizes of the network of Table 1: blocks of two 3x3 convolutions and a 2x2 max-pool, then one hidden layer."""
 
-    channels: tuple[int, ...] = (32, 64)
-    hidden: int = 256
+    channels: tuple[int, ...] = (32, 64)  # of each block
+    hidden: int = 256  # units of the fully connected layer
 
 
 @dataclass(frozen=True)
 class PlanningSpec:
-    """A network that plans ways through the places that a view shows."""
+    """Sizes of a network that plans over the places of a view."""
 
     grid: Grid
-    horizon: int  # how many choices ahead it looks
-    features: int  # of a place
+    horizon: int  # how many choices ahead it plans
+    features: int  # of each place
 
 
 class Dropout(nn.Module):
-    """Dropout that draws from a generator of its own, so that networks trained side by side stay reproducible."""
+    """Dropout with its own random generator, so that networks trained in parallel stay reproducible."""
 
     def __init__(self, rate: float, rng: torch.Generator) -> None:
         super().__init__()
@@ -35,16 +35,16 @@ class Dropout(nn.Module):
         self._kept = round(256 * (1 - rate))
 
     def forward(self, x: torch.Tensor) -> torch.Tensor:
-        """Zero entries at the rate and scale the others up, in training only."""
+        """Return x with entries zeroed at the rate and the others scaled up, in training; x itself otherwise."""
         if not self.training or self.rate == 0:
             return x
-        # A random byte an entry is four times quicker to draw than a Bernoulli variable; it rounds the rate to 1/256.
+        # Random bytes are four times faster to draw than Bernoulli variables. They round the rate to 1/256.
         kept = _random_bytes(x, self._rng) < self._kept
         return x * kept * (256 / self._kept)
 
 
 def _random_bytes(like: torch.Tensor, rng: torch.Generator) -> torch.Tensor:
-    """Return uint8 of the shape, the memory layout and the device of a tensor."""
+    """Return random uint8 with the shape, memory layout and device of a tensor."""
     words = torch.empty(-(-like.numel() // 8), dtype=torch.int64).random_(-(2**63), None, generator=rng)
     return words.view(torch.uint8).to(like.device).as_strided(like.shape, like.stride())
 
@@ -56,12 +56,17 @@ def build_network(
     dropout: float,
     rng: torch.Generator,
 ) -> nn.Module:
-    """Return the network for observations of a shape: (channels, rows, columns) for pictures, (features,) for vectors.
+    """Return a new network.
 
-    Dropout comes after each pool and after the fully connected layer; a network that plans has none.
+    Args:
+        observation_shape: (channels, rows, columns) for pictures, (features,) for vectors.
+        outputs: how many logits.
+        spec: the network's form.
+        dropout: the rate after each pool and after the fully connected layer; networks that plan have no dropout.
+        rng: draws initial weights and dropout.
 
     Raises:
-        ValueError: observations of another shape.
+        ValueError: the shape is neither a picture's nor a vector's.
     """
     if isinstance(spec, PlanningSpec):
         return PlanningNet(observation_shape[0], outputs, spec, rng)
@@ -73,10 +78,7 @@ def build_network(
 
 
 class ConvNet(nn.Sequential):
-    """Maps float32[B, C, rows, columns] to logits float32[B, outputs].
-
-    Weights and dropout are drawn from `rng` alone.
-    """
+    """Maps pictures float32[B, C, rows, columns] to logits float32[B, outputs] (Table 1)."""
 
     def __init__(
         self, observation_shape: tuple[int, ...], outputs: int, spec: NetworkSpec, dropout: float, rng: torch.Generator
@@ -89,7 +91,7 @@ class ConvNet(nn.Sequential):
                 nn.ReLU(),
                 nn.Conv2d(width, width, 3, padding="valid"),
                 nn.MaxPool2d(2),
-                nn.ReLU(),  # after the pool it does the same to a quarter of the entries
+                nn.ReLU(),  # same result after the pool, on a quarter of the entries
                 Dropout(dropout, rng),
             ]
             channels, rows, columns = width, (rows - 2) // 2, (columns - 2) // 2
@@ -106,7 +108,7 @@ class ConvNet(nn.Sequential):
 
 
 class DenseNet(nn.Sequential):
-    """Maps float32[B, features] to logits float32[B, outputs] through two layers of `spec.hidden`."""
+    """Maps vectors float32[B, features] to logits float32[B, outputs] through two layers of `spec.hidden` units."""
 
     def __init__(self, features: int, outputs: int, spec: NetworkSpec, dropout: float, rng: torch.Generator) -> None:
         layers: list[nn.Module] = [
@@ -122,29 +124,28 @@ class DenseNet(nn.Sequential):
 
 
 class PlanningNet(nn.Module):
-    """Maps float32[B, C, rows, columns] to the values float32[B, outputs] of the choices where the agent is.
+    """Maps views float32[B, C, rows, columns] to values float32[B, outputs] of the choices at the agent's place.
 
-    By what its patch shows, each place has a cost of each choice there. Soft value iteration over the places makes
-    values of choices of these costs: value iteration networks (Tamar et al. 2016) with the moves given by the domain
-    and costs that depend on the place. The agent's place is in the middle of the picture.
+    A value iteration network (Tamar et al. 2016): the domain gives the moves, and a convolution over each place's patch
+    gives the cost of each move and of ending there. Soft value iteration turns the costs into values. The agent's place
+    is in the middle of the picture.
 
-    Where to end is no choice of the grid's, ending has a cost all the same; if one more output is asked for, it is the
-    logit of beta_g, of ending rather than going on.
+    Ending has a cost at every place, also if the grid has no move for it. If `outputs` is one more than the grid's
+    moves, the last output is the logit of beta_g: of ending rather than continuing.
     """
 
     def __init__(self, channels: int, outputs: int, spec: PlanningSpec, rng: torch.Generator) -> None:
         super().__init__()
-        self.moves = [move for move in spec.grid.moves if move is not None]  # ending comes last
+        self.moves = [move for move in spec.grid.moves if move is not None]  # None, for ending, is the last
         self.outputs, self.terminates, self.horizon = outputs, outputs > len(spec.grid.moves), spec.horizon
         self.places = nn.Conv2d(channels, spec.features, spec.grid.patch, spec.grid.stride)
         self.costs = nn.Conv2d(spec.features, len(self.moves) + 1, 1)
         _initialize([self.places, self.costs], rng)
 
     def forward(self, x: torch.Tensor) -> torch.Tensor:
-        """Plan.
+        """Run soft value iteration and return the values at the agent's place.
 
-        What is iterated is exp(V), which makes each round a sum of products: exp(V) <- sum over choices of
-        exp(-cost) times exp(V) of where it leads.
+        The iterated quantity is exp(V): exp(V) <- sum over choices of exp(-cost) * exp(V) of the next place.
         """
         passable = torch.sigmoid(-self.costs(functional.relu(self.places(x))))  # exp(-cost), cost = softplus
         moving, ending = passable[:, :-1], passable[:, -1]
@@ -154,24 +155,24 @@ class PlanningNet(nn.Module):
         row, column = (size // 2 for size in ending.shape[1:])
         here = torch.cat([(moving * self._ahead(reached))[:, :, row, column], ending[:, None, row, column]], 1)
         if self.terminates:
-            going_on = here[:, :-1].sum(1, keepdim=True)
-            return torch.cat([_log(here[:, :-1]), _log(here[:, -1:]) - _log(going_on)], 1)
+            continuing = here[:, :-1].sum(1, keepdim=True)
+            return torch.cat([_log(here[:, :-1]), _log(here[:, -1:]) - _log(continuing)], 1)
         return _log(here)[:, : self.outputs]
 
     def _ahead(self, reached: torch.Tensor) -> torch.Tensor:
-        """Return what is reached by each move, float32[B, moves, rows, columns]: nothing beyond the picture."""
+        """Return exp(V) of the place each move leads to, float32[B, moves, rows, columns]; 0 outside the picture."""
         rows, columns = reached.shape[1:]
         padded = functional.pad(reached, (1, 1, 1, 1))
         return torch.stack([padded[:, 1 + r : 1 + r + rows, 1 + c : 1 + c + columns] for r, c in self.moves], 1)
 
 
 def _log(x: torch.Tensor) -> torch.Tensor:
-    """Return the logarithm; what costs more than 80 is all one, as 32-bit floats have nothing much smaller."""
+    """Return the logarithm, but about -80 at least, because float32 has no much smaller numbers than exp(-80)."""
     return torch.log(x.clamp(min=1e-35))
 
 
 def _initialize(layers: list[nn.Module], rng: torch.Generator) -> None:
-    """Draw Glorot's initial weights, the default of the authors' framework."""
+    """Draw initial weights after Glorot, the default of the authors' framework, and zero the biases."""
     for layer in layers:
         if isinstance(layer, nn.Conv2d | nn.Linear):
             assert layer.bias is not None

@@ -1,4 +1,7 @@
-"""What each policy is given to see, and whose network answers for it: what a preset makes of a domain's structure."""
+"""What each policy is given of an observation, and which network answers for it.
+
+This is where a preset's use of a domain (`DomainUse`) meets what the domain declares (`waypost.domain.Structured`).
+"""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -7,37 +10,44 @@ import numpy as np
 from numpy.typing import NDArray
 
 from waypost.domain import Domain, Structured, Symmetry, View
+from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec
-from waypost_learner.presets.base import Preset
-from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
+from waypost_learner.rollout.policy_keys import PolicyKey, pi
 from waypost_learner.rollout.rollout import Outputs
 
-Answering = Callable[[NDArray[np.float32]], Outputs]
+Evaluate = Callable[[NDArray[np.float32]], Outputs]
+"""Maps a batch float32[B, observation shape] to a policy's outputs."""
 
 
 @dataclass(frozen=True)
-class Through:
-    """Answers for a policy with what another says of what something makes of the observations."""
+class WrappedPolicy:
+    """A policy that is evaluated on transformed observations, and whose choices may be permuted.
 
-    answering: Answering
+    Args:
+        policy: what is evaluated.
+        observe: transforms one observation.
+        choices: for each choice, the policy's choice that stands for it; the same ones if None.
+    """
+
+    policy: Evaluate
     observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]
-    choices: Sequence[int] | None  # what each choice is to the other; the same if None
+    choices: Sequence[int] | None
 
     def __call__(self, observations: NDArray[np.float32]) -> Outputs:
-        """Evaluate float32[B, observation shape]."""
-        out = self.answering(np.stack([self.observe(one) for one in observations]))
+        """Return the outputs for a batch float32[B, observation shape]."""
+        out = self.policy(np.stack([self.observe(one) for one in observations]))
         return out if self.choices is None else Outputs(out.logits[:, self.choices], out.termination)
 
 
 @dataclass(frozen=True)
-class Sight:
-    """How one policy sees.
+class PolicyView:
+    """What one policy is given of an observation, and which network answers for it.
 
     Args:
-        view: what it is given of an observation.
-        network: what its own network is, if it has one.
-        owner: whose network answers: its own, or that of the policy it is tied to.
-        symmetry: what makes its task the owner's; None if it is its own.
+        view: the part of an observation that it is given.
+        network: the form of its network.
+        owner: the policy whose network answers: itself, or the one that it is tied to.
+        symmetry: what maps its task to the owner's; None if it is its own owner.
     """
 
     view: View
@@ -45,37 +55,44 @@ class Sight:
     owner: PolicyKey
     symmetry: Symmetry | None
 
-    def through(self, learned: Answering) -> Answering:
-        """Return what answers for the policy, given what the owner has learned."""
-        symmetry, look = self.symmetry, self.view.observe
+    def wrap(self, owner: Evaluate) -> Evaluate:
+        """Return the policy, given its owner's network."""
+        symmetry, observe = self.symmetry, self.view.observe
         if symmetry is not None:
-            return Through(learned, lambda seen: look(symmetry.observe(seen)), symmetry.actions)
-        return learned if look is _everything else Through(learned, look, None)
+            return WrappedPolicy(owner, lambda whole: observe(symmetry.observe(whole)), symmetry.actions)
+        return owner if observe is _unchanged else WrappedPolicy(owner, observe, None)
 
 
-def sight(domain: Domain, preset: Preset, key: PolicyKey) -> Sight:
-    """Return how a policy sees."""
-    view = _view(domain, preset, key)
-    symmetry = _tie(domain, key) if preset.tied and key >= 0 else None
-    owner = key if symmetry is None else symmetry.subgoals[key]
-    if view.grid is None or preset.planning is None:
-        return Sight(view, preset.network, owner, symmetry)
+def policy_view(domain: Domain, use: DomainUse, network: NetworkSpec, key: PolicyKey) -> PolicyView:
+    """Return what a policy is given and who answers for it.
+
+    Args:
+        domain: what declares views and symmetries.
+        use: which of these declarations to use.
+        network: the form of networks that do not plan.
+        key: the policy.
+    """
+    view = _view(domain, use, key)
+    symmetry = _tie(domain, key.subgoal) if use.tied and key.subgoal is not None else None
+    owner = key if symmetry is None or key.subgoal is None else pi(symmetry.subgoals[key.subgoal])
+    if view.grid is None or use.planning is None:
+        return PolicyView(view, network, owner, symmetry)
     horizons = domain.horizons
-    ahead = {META: horizons.hi, FLAT: horizons.full}.get(key, horizons.lo)
-    return Sight(view, PlanningSpec(view.grid, ahead, preset.planning), owner, symmetry)
+    horizon = {"hi": horizons.hi, "lo": horizons.lo, "flat": horizons.full}[key.level]
+    return PolicyView(view, PlanningSpec(view.grid, horizon, use.planning), owner, symmetry)
 
 
-def _view(domain: Domain, preset: Preset, key: PolicyKey) -> View:
-    if not preset.views or not isinstance(domain, Structured):
-        return View(domain.observation_shape, _everything)
-    return {META: domain.hi_view, FLAT: domain.flat_view}.get(key, domain.lo_view)
+def _view(domain: Domain, use: DomainUse, key: PolicyKey) -> View:
+    if not use.views or not isinstance(domain, Structured):
+        return View(domain.observation_shape, _unchanged)
+    return {"hi": domain.hi_view, "lo": domain.lo_view, "flat": domain.flat_view}[key.level]
 
 
-def _everything(observation: NDArray[np.float32]) -> NDArray[np.float32]:
+def _unchanged(observation: NDArray[np.float32]) -> NDArray[np.float32]:
     return observation
 
 
-def _tie(domain: Domain, key: PolicyKey) -> Symmetry | None:
-    """Return the symmetry that makes a subgoal the first of those that are the same but for one; None for the first."""
-    first = min(domain.symmetries, key=lambda one: one.subgoals[key], default=None)
-    return first if first is not None and first.subgoals[key] < key else None
+def _tie(domain: Domain, subgoal: int) -> Symmetry | None:
+    """Return the symmetry that maps a subgoal to the lowest-numbered one it can; None if that is the subgoal itself."""
+    first = min(domain.symmetries, key=lambda one: one.subgoals[subgoal], default=None)
+    return first if first is not None and first.subgoals[subgoal] < subgoal else None

@@ -1,4 +1,4 @@
-"""Presets: every value that fixes how a run learns, in one readable file each."""
+"""Presets: the values that fix how a run learns, in one readable file each, and other values given by name."""
 
 import json
 from dataclasses import is_dataclass, replace
@@ -6,12 +6,12 @@ from typing import Any, get_type_hints
 
 from pydantic import TypeAdapter, ValidationError
 
-from waypost_learner.presets.base import Preset
+from waypost_learner.presets.base import Preset, groups_by_value, value_of
 from waypost_learner.presets.lean import LEAN
 from waypost_learner.presets.paper import PAPER
 
 Changes = dict[str, "str | Changes"]
-"""Values by name, as JSON, and groups of them."""
+"""New values as JSON, by name; the values of a specification are nested."""
 
 PRESETS = {"lean": LEAN, "paper": PAPER}
 
@@ -20,10 +20,29 @@ def find_preset(name: str, values: str | None = None) -> Preset:
     """Return a preset, with other values where some are given: "relabeling=false train_hi.batch=32".
 
     Raises:
-        ValueError: there is no preset or no value of that name; the message lists those that exist.
+        ValueError: there is no preset or no value of that name (the message lists those that exist), a text is no
+            value of its type, or the values contradict each other.
     """
     if name not in PRESETS:
         raise ValueError(f"there is no preset {name!r}; those that exist are: {', '.join(sorted(PRESETS))}")
+    preset = PRESETS[name]
+    groups = groups_by_value(preset)
+    new: dict[str, Any] = {}
+    for value, text in parse_values(values).items():
+        if value in groups:
+            owner = getattr(preset, groups[value]) if groups[value] else preset
+            new[value] = _changed(value, get_type_hints(type(owner))[value], value_of(preset, value), text)
+        else:
+            new[value] = None  # refused below, with the names that exist
+    return preset.with_values(**new)
+
+
+def parse_values(values: str | None) -> Changes:
+    """Return the assignments in a text such as "relabeling=false train_hi.batch=32", nested by their names.
+
+    Raises:
+        ValueError: a name is given both as a value and as a group of values.
+    """
     changes: Changes = {}
     for assignment in (values or "").split():
         path, _, text = assignment.partition("=")
@@ -35,27 +54,28 @@ def find_preset(name: str, values: str | None = None) -> Preset:
                 raise ValueError(f"{group!r} is given twice, as a value and as a group of values")
             into = below
         into[last] = text
-    preset: Preset = _changed(PRESETS[name], changes)
-    return preset
+    return changes
 
 
-def _changed(spec: Any, changes: Changes) -> Any:
-    """Return a specification with these values replaced, all at once."""
-    types = get_type_hints(type(spec))
-    new: dict[str, Any] = {}
-    for name, value in changes.items():
-        if name not in types:
-            raise ValueError(f"there is no value {name!r}; those that exist are: {', '.join(types)}")
-        before = getattr(spec, name)
-        if is_dataclass(before) != isinstance(value, dict):
-            raise ValueError(f"{name!r} is {'a group of values' if is_dataclass(before) else 'no group of values'}")
-        new[name] = _changed(before, value) if isinstance(value, dict) else _read(name, types[name], before, value)
-    return replace(spec, **new)
+def _changed(name: str, of: Any, before: Any, change: str | Changes) -> Any:
+    """Return the new value of a name: parsed from JSON, or a specification with some of its values replaced."""
+    if is_dataclass(before) != isinstance(change, dict):
+        raise ValueError(f"{name!r} is {'a group of values' if is_dataclass(before) else 'no group of values'}")
+    if isinstance(change, str):
+        return _parsed(name, of, before, change)
+    types = get_type_hints(type(before))
+    unknown = [value for value in change if value not in types]
+    if unknown:
+        raise ValueError(f"there is no value {unknown[0]!r}; those that exist are: {', '.join(types)}")
+    return replace(
+        before,
+        **{value: _changed(value, types[value], getattr(before, value), text) for value, text in change.items()},
+    )
 
 
-def _read(name: str, of: Any, before: Any, text: str) -> Any:
+def _parsed(name: str, of: Any, before: Any, text: str) -> Any:
     try:
         return TypeAdapter(of).validate_json(text, strict=True)
     except ValidationError:
-        example = f"write {name}=VALUE, a JSON value as {json.dumps(before)} is"
+        example = f"write {name}=VALUE, a JSON value such as {json.dumps(before)}"
         raise ValueError(f"{text!r} is no value for {name!r}: {example}") from None

@@ -1,43 +1,69 @@
-"""What a preset fixes."""
+"""What a preset fixes: its values, in groups, and how single values are replaced by name."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
+from waypost_learner.policies.domain_use import NOTHING_DECLARED, DomainUse
 from waypost_learner.policies.dqn import DqnSpec
 from waypost_learner.policies.imitation import TrainSpec
 from waypost_learner.policies.networks import NetworkSpec
 from waypost_learner.presets.monitoring import EVERY_EPISODE, Monitoring
-from waypost_learner.rollout.rollout import Choosing
+from waypost_learner.rollout.rollout import RolloutSpec
+
+
+@dataclass(frozen=True)
+class Training:
+    """The networks and how each of them is trained."""
+
+    network: NetworkSpec  # of policies that do not plan
+    train_hi: TrainSpec  # of mu
+    train_lo: TrainSpec  # of each pi_g
+    train_flat: TrainSpec  # of a flat policy
+    train_hi_hybrid: TrainSpec  # of mu where each pi_g is a Q-function, which takes many more episodes
+    dqn: DqnSpec  # of Q-functions
 
 
 @dataclass(frozen=True)
 class Preset:
-    """The values of a run."""
+    """The values of a run. Names of values are unique across the groups `rollouts`, `training` and `use`."""
 
-    warm_start: int  # episodes of Algorithm 1 before an interactive algorithm begins
-    network: NetworkSpec
-    train_hi: TrainSpec
-    train_lo: TrainSpec
-    train_flat: TrainSpec
-    train_hi_hybrid: TrainSpec  # mu's where subpolicies learn by reinforcement, over many more episodes
-    dqn: DqnSpec
-    choosing: Choosing
-    h_hi: int | None = None  # most subgoals of an episode; the domain's number if None
-    symmetries: bool = False  # whether each label is also learned from in the domain's other symmetries
-    tied: bool = (
-        False  # whether one network acts toward all subgoals that are one but for a symmetry; needs `symmetries`
-    )
-    # What is made of a domain's structure, where it tells of it (`learner.domains.base.Structured`):
-    views: bool = False  # whether policies are given the domain's views, rather than all that there is to see
-    planning: int | None = None  # where a view shows places, a network plans over them, by so many features of each
-    repeat_penalty: float = 0.0  # off the logit of a subgoal, for each time it was chosen in the same place before
-    relabeling: bool = False  # whether labels and demonstrations are also learned from as those of other tasks
-    monitoring: Monitoring = EVERY_EPISODE  # which episodes the expert is asked about
+    warm_start: int  # episodes of demonstrations before an interactive algorithm begins
+    rollouts: RolloutSpec
+    training: Training
+    use: DomainUse = NOTHING_DECLARED  # what is used of the domain's declarations
+    monitoring: Monitoring = EVERY_EPISODE  # which episodes the expert inspects
 
-    def __post_init__(self) -> None:
-        """Refuse values that contradict each other.
+    def with_values(self, **values: Any) -> "Preset":
+        """Return the preset with other values, each given by its own name: `with_values(relabeling=False)`.
 
         Raises:
-            ValueError: tied policies without the symmetries through which they learn from each other's labels.
+            ValueError: there is no value of a name, or the values contradict each other.
         """
-        if self.tied and not self.symmetries:
-            raise ValueError("tied=true needs symmetries=true: a policy learns through them what the other was taught")
+        groups = groups_by_value(self)
+        changes: dict[str, dict[str, Any]] = {}
+        for name, value in values.items():
+            if name not in groups:
+                raise ValueError(f"there is no value {name!r}; those that exist are: {', '.join(groups)}")
+            changes.setdefault(groups[name], {})[name] = value
+        top = changes.pop("", {})
+        return replace(self, **top, **{group: replace(getattr(self, group), **new) for group, new in changes.items()})
+
+
+_GROUPS = ("rollouts", "training", "use")
+
+
+def groups_by_value(preset: Preset) -> dict[str, str]:
+    """Return the names of all values, each with the group that it is in; "" for values of the preset itself."""
+    found: dict[str, str] = {}
+    for field in fields(preset):
+        if field.name in _GROUPS:
+            found |= {value.name: field.name for value in fields(getattr(preset, field.name))}
+        else:
+            found[field.name] = ""
+    return found
+
+
+def value_of(preset: Preset, name: str) -> Any:
+    """Return the value of a name, whatever group it is in."""
+    group = groups_by_value(preset)[name]
+    return getattr(getattr(preset, group) if group else preset, name)

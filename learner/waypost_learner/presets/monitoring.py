@@ -1,6 +1,7 @@
-"""Which episodes the expert is asked about: each, as Algorithm 2 has it, or those of a sampling plan.
+"""Which episodes the expert inspects: every one, as in Algorithm 2, or those of a sampling plan.
 
-It changes neither what is asked within an episode nor what that costs. What it does to Theorem 1: docs/lean.md.
+The plan changes neither the queries within an inspected episode nor their prices. docs/lean.md says what it does to the
+bound of Theorem 1.
 """
 
 import math
@@ -11,34 +12,34 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Monitoring:
-    """Sampled monitoring: Dodge's continuous sampling plan CSP-1 (1943), with its clearance number from a confidence.
+    """Sampled monitoring: Dodge's continuous sampling plan CSP-1 (1943), its clearance number set by a confidence.
 
-    Every episode is inspected until so many passed in a row that success counts as known; then a share of them, drawn
-    at random, until one fails. The confidence is of one such row under one policy, not of a whole run.
+    Every episode is inspected until `clearance` inspections in a row have passed. Then a random share of the episodes
+    is inspected, until one fails. The confidence holds for one streak under one policy; a run has several streaks.
     """
 
-    share: float = 1.0  # of the episodes, once success is known; 1: every one, as Algorithm 2 has it
-    rate: float = 0.9  # the success rate that is then known,
-    confidence: float = 0.95  # with this confidence
+    share: float = 1.0  # of the episodes that are inspected after a streak; 1 inspects every episode, as Algorithm 2
+    rate: float = 0.9  # the success rate that a streak shows
+    confidence: float = 0.95  # with which a streak shows it
 
     def __post_init__(self) -> None:
-        """Refuse what is no share, or a rate that no number of passes could show.
+        """Refuse numbers out of their range.
 
         Raises:
-            ValueError: with what to write instead.
+            ValueError: the share is not from 0 to 1, or the rate or confidence is not between 0 and 1.
         """
         if not 0 <= self.share <= 1 or not 0 < self.rate < 1 or not 0 < self.confidence < 1:
-            raise ValueError("monitoring takes a share from 0 to 1, a rate and a confidence between 0 and 1")
+            raise ValueError("monitoring takes a share from 0 to 1, and a rate and a confidence between 0 and 1")
 
     @property
     def clearance(self) -> int:
-        """So many passes in a row show the rate: a policy below it has them with at most 1 - confidence."""
+        """Passes in a row that show the rate: a policy below it has them with probability 1 - confidence at most."""
         return math.ceil(math.log(1 - self.confidence) / math.log(self.rate))
 
     def inspects(self, passes: int, rng: np.random.Generator) -> bool:
-        """Return whether to inspect an episode after so many passes in a row."""
+        """Return whether to inspect an episode that follows this many passes in a row."""
         return passes < self.clearance or rng.random() < self.share
 
 
 EVERY_EPISODE = Monitoring()
-"""Algorithm 2's: each is inspected."""
+"""Algorithm 2: every episode is inspected."""

@@ -1,7 +1,7 @@
-"""Pictures of states, for domains that the page has no renderer for (`Pictured`).
+"""Take pictures of the states in a query, for domains without a renderer in the web page (`Pictured`).
 
-They are taken when a query is asked, not while the learner acts: its trajectory is carried out again in an environment
-of the camera's own, which the determinism of a domain allows. A frame goes by the SHA-256 of its PNG.
+Pictures are taken when a query is asked, not during the rollout: the camera repeats the actions in an environment of
+its own, because domains are deterministic. A frame is identified by the SHA-256 of its PNG.
 """
 
 import hashlib
@@ -17,17 +17,22 @@ from waypost.trajectory import Action, Segment
 
 
 class Camera:
-    """Takes pictures along trajectories of one instance, each once. A domain without pictures gets none."""
+    """Takes pictures of the states along trajectories of one instance, each state once.
+
+    Args:
+        domain: the domain; if it is not `Pictured`, there are no pictures.
+        instance: where all trajectories start.
+    """
 
     def __init__(self, domain: Domain, instance: Any) -> None:
         self._domain, self._instance = domain, instance
         self._pictured = domain if isinstance(domain, Pictured) else None
         self._env = domain.make_env() if self._pictured else None
-        self._hashes: dict[tuple[Action, ...], str] = {}  # by the actions that lead there
+        self._hashes: dict[tuple[Action, ...], str] = {}  # by the actions that lead to the state
         self._new: dict[str, bytes] = {}
 
     def frames(self, segments: Sequence[Segment]) -> list[list[str]]:
-        """Return the hash of a frame per state, for segments that follow each other from the start of the episode."""
+        """Return the hashes of the frames of each segment's states, for the segments of an episode from its start."""
         hashes = self.along([action for segment in segments for action in segment.actions])
         ends, frames = 0, []
         for segment in segments:
@@ -36,16 +41,16 @@ class Camera:
         return frames
 
     def along(self, actions: Sequence[Action]) -> list[str]:
-        """Return the hash of a frame per state, from the start of the episode on; none if there are no pictures."""
+        """Return the hashes of the frames along actions from the start of the episode; [] if there are no pictures."""
         if self._pictured is None:
             return []
-        ways = [tuple(actions[:n]) for n in range(len(actions) + 1)]
-        if any(way not in self._hashes for way in ways):
-            self._take(ways[-1])
-        return [self._hashes[way] for way in ways]
+        prefixes = [tuple(actions[:n]) for n in range(len(actions) + 1)]
+        if any(prefix not in self._hashes for prefix in prefixes):
+            self._take(prefixes[-1])
+        return [self._hashes[prefix] for prefix in prefixes]
 
     def developed(self) -> dict[str, bytes]:
-        """Return the files of all frames taken since the last call, by their hashes."""
+        """Return the PNG files of all frames taken since the last call, by their hashes."""
         new, self._new = self._new, {}
         return new
 
@@ -57,7 +62,7 @@ class Camera:
                 self._new[self._hashes[actions[:n]]] = png
 
     def _along(self, actions: Sequence[Action]) -> Iterator[Any]:
-        """Yield the picture of each state."""
+        """Yield the picture of each state, uint8[rows, columns, 3]."""
         assert self._pictured is not None
         assert self._env is not None
         self._env.reset(options={"instance": self._instance})
@@ -68,7 +73,7 @@ class Camera:
 
 
 def encoded(pixels: Any) -> bytes:
-    """Return uint8[rows, columns, 3] as a PNG."""
+    """Return a picture uint8[rows, columns, 3] as a PNG file."""
     file = io.BytesIO()
     Image.fromarray(pixels).save(file, "PNG")
     return file.getvalue()

@@ -1,6 +1,6 @@
-"""Talk to an ASGI app in this process as if over the network: the server without a socket.
+"""An HTTP transport to an ASGI app in this process, without a socket.
 
-`waypost train --store FILE` uses it, so that one code path writes every store.
+`waypost train --store FILE` uses it, so that the same code writes every store, with and without a server.
 """
 
 import asyncio
@@ -17,7 +17,11 @@ T = TypeVar("T")
 
 
 class InProcessTransport(httpx2.BaseTransport):
-    """Runs the app's event loop on a thread of its own; use as a context manager."""
+    """Runs an app in an event loop on its own thread. Use it as a context manager.
+
+    Args:
+        app: what answers the requests.
+    """
 
     def __init__(self, app: FastAPI) -> None:
         self._app = app
@@ -27,7 +31,7 @@ class InProcessTransport(httpx2.BaseTransport):
         self._asgi = httpx2.ASGITransport(app)
 
     def __enter__(self) -> "InProcessTransport":
-        """Start the app."""
+        """Start the event loop and the app."""
         self._thread.start()
         self._run(self._lifespan.__aenter__())
         return self
@@ -38,14 +42,14 @@ class InProcessTransport(httpx2.BaseTransport):
         exc_value: BaseException | None = None,
         traceback: TracebackType | None = None,
     ) -> None:
-        """Stop the app."""
+        """Stop the app and the event loop."""
         self._run(self._lifespan.__aexit__(None, None, None))
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
         self._loop.close()
 
     def handle_request(self, request: httpx2.Request) -> httpx2.Response:
-        """Let the app answer one request."""
+        """Return the app's response to a request."""
         return self._run(self._handle(request))
 
     async def _handle(self, request: httpx2.Request) -> httpx2.Response:

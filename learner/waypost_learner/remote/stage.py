@@ -1,7 +1,7 @@
-"""The learner's environment, offered over the play socket while a demonstration is open, so that a person can play it.
+"""Offer the learner's environment over the play socket, so that a person can give a demonstration in the web page.
 
-The annotator's side sends the whole demonstration each time and this side carries it out. Nothing is lost with a
-connection, an environment or a process: who connects again sends again.
+The page sends all actions of the demonstration each time, and this side carries them out. So nothing is lost when a
+connection, an environment or a process ends: the page connects again and sends all actions again.
 """
 
 import logging
@@ -20,7 +20,7 @@ from waypost_learner.remote.translation import Translator
 from waypost_learner.rollout.simulator import Simulator
 
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.1, 2.0  # seconds between attempts to connect
-_PASSING = frozenset({408, 429})  # refusals that later attempts may not meet, besides the server's own failures
+_PASSING = frozenset({408, 429})  # client errors after which to try again, as after server errors
 
 log = logging.getLogger("waypost")
 
@@ -29,21 +29,26 @@ Upload = Callable[[Mapping[str, bytes]], None]
 
 
 class Stage:
-    """One instance's environment, carried to wherever a demonstration stands."""
+    """One instance's environment, in the state that a demonstration has reached.
+
+    Args:
+        translator: of the demonstration's query.
+        upload: called with frames to upload, PNG files by hash.
+    """
 
     def __init__(self, translator: Translator, upload: Upload) -> None:
         self._translator, self._upload = translator, upload
         self._simulator = Simulator(translator.domain)
-        self._camera = Camera(translator.domain, translator.instance)  # the translator's own is another thread's
+        self._camera = Camera(translator.domain, translator.instance)  # not the translator's, which another thread uses
         self._begin()
 
     def perform(self, moves: wire.PlayMoves) -> wire.PlayStates:
-        """Carry a demonstration out and return the states that the other side does not know."""
+        """Carry out the actions of a demonstration, and return the states that the page does not know."""
         names = self._translator.domain.actions
         actions = [names.index(action) for segment in moves.segments for action in segment.actions]
-        if self._actions != actions[: len(self._actions)]:  # something was taken back
+        if self._actions != actions[: len(self._actions)]:  # actions were taken back
             self._begin()
-        self._go_on(actions[len(self._actions) :])
+        self._advance(actions[len(self._actions) :])
         known = min(moves.known, len(self._views))
         frames = self._camera.along(self._actions)[known:]
         self._upload(self._camera.developed())
@@ -61,7 +66,7 @@ class Stage:
         self._views = [self._simulator.reset(self._translator.instance).view]
         self._actions: list[int] = []
 
-    def _go_on(self, actions: Sequence[int]) -> None:
+    def _advance(self, actions: Sequence[int]) -> None:
         for action in actions:
             if self._simulator.ended:
                 break
@@ -70,17 +75,23 @@ class Stage:
 
 
 class Offer:
-    """Keeps a stage connected, on a thread, until it is withdrawn or turned away for good."""
+    """Keeps a stage connected, on a thread, until it is withdrawn or refused permanently.
+
+    Args:
+        connect: opens the play socket of the query.
+        translator: of the query.
+        upload: called with frames to upload.
+    """
 
     def __init__(self, connect: Connect, translator: Translator, upload: Upload) -> None:
         self._connect, self._stage = connect, Stage(translator, upload)
         self._over = threading.Event()
         self._socket: ClientConnection | None = None
-        self._lock = threading.Lock()  # between connecting and withdrawing
+        self._lock = threading.Lock()  # held by connecting and by withdrawing
         threading.Thread(target=self._run, name="stage", daemon=True).start()
 
     def withdraw(self) -> None:
-        """Leave the socket; the thread ends by itself."""
+        """Close the socket and let the thread end."""
         with self._lock:
             self._over.set()
             if self._socket is not None:
@@ -96,7 +107,7 @@ class Offer:
             except (OSError, WebSocketException) as trouble:
                 status = _refusal(trouble)
                 if status is not None:
-                    if status != HTTPStatus.CONFLICT:  # answered meanwhile, or offered by another process
+                    if status != HTTPStatus.CONFLICT:  # the query is answered, or another process offers it
                         log.warning("Nobody can play a demonstration: %s", trouble)
                     return
             self._over.wait(pause)
@@ -114,12 +125,15 @@ class Offer:
 
 
 def offer(connect: Connect, translator: Translator, upload: Upload) -> Callable[[], None]:
-    """Offer an instance's environment on a play socket, its pictures uploaded; returns how to withdraw it."""
+    """Offer an instance's environment on a play socket, and return a function that withdraws the offer."""
     return Offer(connect, translator, upload).withdraw
 
 
 def _refusal(trouble: Exception) -> int | None:
-    """Return the status of a refusal that connecting again would meet again: a handshake's, or a close code - 4000."""
+    """Return the status of a permanent refusal; None if connecting again may succeed.
+
+    A status is the handshake's, or a close code minus 4,000.
+    """
     if isinstance(trouble, InvalidStatus):
         status = trouble.response.status_code
     elif isinstance(trouble, ConnectionClosed) and trouble.rcvd is not None:

@@ -1,4 +1,4 @@
-"""Between the learner's queries (numbers, states) and the wire's (names, JSON views), both ways."""
+"""Translate queries to the wire and answers from it: numbers and states here, names and JSON views there."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -16,26 +16,32 @@ from waypost_learner.algorithms.queries import (
     LabelLo,
     Query,
 )
-from waypost_learner.policies.datasets import LoLabels
+from waypost_learner.policies.labels import LoLabels
 from waypost_learner.remote.camera import Camera
 from waypost_learner.rollout.simulator import Simulator
 
 
 def vocabulary(domain: Domain) -> wire.Vocabulary:
-    """Return a domain's names as a run declares them."""
+    """Return the names of a domain, as a run declares them to the server."""
     return wire.Vocabulary(
         domain=domain.name, subgoals=list(domain.subgoals), actions=list(domain.actions), renderer=domain.renderer
     )
 
 
 class Translator:
-    """Translates for one domain and one environment instance; with a camera, queries carry pictures of their states."""
+    """Translates the queries and answers of one episode.
+
+    Args:
+        domain: whose names and views to use.
+        instance: where the episode starts.
+        camera: takes the pictures that queries carry; they carry none if None.
+    """
 
     def __init__(self, domain: Domain, instance: Any, camera: Camera | None = None) -> None:
         self.domain, self.instance, self.camera = domain, instance, camera
 
     def ask(self, query: Query, episode: int, ordinal: int) -> wire.Ask:
-        """Return a query as it goes over the wire."""
+        """Return a query in its wire form. `episode` and `ordinal` identify it in its run."""
         common: dict[str, Any] = {
             "episode": episode,
             "ordinal": ordinal,
@@ -65,7 +71,7 @@ class Translator:
                 return wire.AskLabelHi(
                     kind="label_hi",
                     question=f"Which subgoal was right at the start of {'each' if len(sigma) > 1 else 'this'} segment?",
-                    **self._parted(before, sigma),
+                    **self._with_context(before, sigma),
                     suggestion=wire.LabelHiAnswer(kind="label_hi", subgoals=[self._subgoal(s) for s in sigma]),
                     **common,
                 )
@@ -73,14 +79,14 @@ class Translator:
                 return wire.AskInspectLo(
                     kind="inspect_lo",
                     question=f"Did this segment accomplish “{self._words(segment)}”?",
-                    **self._parted(before, (segment,)),
+                    **self._with_context(before, (segment,)),
                     **common,
                 )
             case LabelLo(segment, before):
                 return wire.AskLabelLo(
                     kind="label_lo",
                     question=f"Which action was right in each state toward “{self._words(segment)}”?",
-                    **self._parted(before, (segment,)),
+                    **self._with_context(before, (segment,)),
                     suggestion=wire.LabelLoAnswer(
                         kind="label_lo",
                         actions=list(self._actions(segment.actions)),
@@ -100,7 +106,7 @@ class Translator:
                 )
 
     def answer(self, answer: wire.Answer) -> Answer:
-        """Return an answer off the wire in the form that `learner.queries` promises the algorithm."""
+        """Return an answer in the form that the query's docstring in `algorithms/queries.py` promises."""
         match answer:
             case wire.HierDemoAnswer():
                 return self._replay(answer.segments)
@@ -115,9 +121,9 @@ class Translator:
                 return tuple(self.domain.actions.index(a) for a in answer.actions)
 
     def _replay(self, segments: Sequence[wire.DemoSegment]) -> Trajectory:
-        """Carry a demonstration out again, to see what the networks would have seen.
+        """Carry out a demonstration in the environment, to get the observations along it.
 
-        Actions after the end of the episode have no state and are left out.
+        Actions after the end of the episode are left out.
         """
         simulator = Simulator(self.domain)
         state = simulator.reset(self.instance)
@@ -135,13 +141,13 @@ class Translator:
             state = states[-1]
         return tuple(sigma)
 
-    def _parted(self, before: Trajectory, asked: Trajectory) -> dict[str, Any]:
-        """Return the segments to ask about, and what came before them."""
+    def _with_context(self, before: Trajectory, asked: Trajectory) -> dict[str, Any]:
+        """Return the segments of a query, and as its context the segments before them."""
         segments = self._segments([*before, *asked])
         return {"segments": segments[len(before) :], "context": segments[: len(before)]}
 
     def _segments(self, segments: Sequence[Segment]) -> list[wire.Segment]:
-        """Return segments that follow each other from the start of the episode."""
+        """Return the wire form of an episode's segments, from its start."""
         frames = self.camera.frames(segments) if self.camera else [[] for _ in segments]
         return [
             wire.Segment(

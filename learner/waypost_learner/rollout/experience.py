@@ -1,4 +1,4 @@
-"""What reinforcement learning learns from: transitions, read off the segments of a rollout."""
+"""Turn the segments of a rollout into transitions, from which Q-functions learn."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -11,22 +11,22 @@ from waypost.trajectory import Segment, Trajectory
 
 @dataclass(frozen=True)
 class Transition:
-    """(s, choice, r, s~): the choice is an action, or a subgoal with all the steps it took."""
+    """(s, choice, r, s~): the choice is an action, or a subgoal together with all the steps it took."""
 
     observation: NDArray[np.float32]
     choice: int
-    reward: float  # discounted within the transition
+    reward: float  # of all its steps, discounted to the first
     next_observation: NDArray[np.float32]
-    steps: int  # how many the choice took; 0 if nothing comes after
+    steps: int  # how many the choice took; 0 if s~ is terminal
 
-    def seen(self, observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]) -> "Transition":
-        """Return the same transition through a view."""
+    def observed(self, observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]) -> "Transition":
+        """Return the same transition with both observations mapped by `observe`."""
         return replace(self, observation=observe(self.observation), next_observation=observe(self.next_observation))
 
 
 @dataclass(frozen=True)
 class PseudoReward:
-    """pseudo(s; g) of Algorithm 3 (line 10): what carrying a subgoal out brings."""
+    """pseudo(s; g) of Algorithm 3 (line 10): the rewards for carrying out a subgoal."""
 
     reached: float = 1.0
     failed: float = -0.5
@@ -34,7 +34,7 @@ class PseudoReward:
 
 
 def of_subgoal(segment: Segment, pseudo: PseudoReward) -> list[Transition]:
-    """Return (s, a, r~, s~) of a segment, for Q_g. Nothing comes after the end of the subgoal or of the episode."""
+    """Return the transitions (s, a, r~, s~) of a segment, for Q_g. The end of the subgoal or episode is terminal."""
     transitions = []
     for step, action in enumerate(segment.actions):
         last = step == len(segment.actions) - 1
@@ -45,7 +45,7 @@ def of_subgoal(segment: Segment, pseudo: PseudoReward) -> list[Transition]:
 
 
 def of_actions(segment: Segment) -> list[Transition]:
-    """Return (s, a, r, s') of a flat trajectory, for a flat Q."""
+    """Return the transitions (s, a, r, s') of a flat trajectory, for a flat Q-function."""
     last = len(segment.actions) - 1
     return [
         _transition(segment, step, action, reward, segment.final and step == last)
@@ -54,7 +54,7 @@ def of_actions(segment: Segment) -> list[Transition]:
 
 
 def of_subgoals(sigma: Trajectory, discount: float) -> list[Transition]:
-    """Return (s_h, g_h, R_h, s_{h+1}) of sigma, for the Q of a meta-controller (Kulkarni et al. 2016)."""
+    """Return the transitions (s_h, g_h, R_h, s_{h+1}) of sigma, for a meta-controller's Q (Kulkarni et al. 2016)."""
     return [
         Transition(
             segment.start.observation,

@@ -1,7 +1,7 @@
-"""Rolling out policies: the repeat-until loop of Algorithm 2 (lines 6-11), and its flat counterpart.
+"""Roll out policies: the repeat-until loop of Algorithm 2 (lines 6-11), and the loop of a flat policy.
 
-A rollout is a generator: it yields which policy it needs in which state and receives what that policy says. So one
-rollout can run alone or many in step, the networks then seeing batches (`run_all`), with the same code.
+A rollout is a generator: it yields which policy it needs in which state, and receives that policy's outputs. The same
+code therefore runs one rollout alone (`run`) or many in parallel, where each network evaluates batches (`run_all`).
 """
 
 from collections import Counter
@@ -14,57 +14,66 @@ import numpy as np
 from numpy.typing import NDArray
 
 from waypost.trajectory import Segment, State, Subgoal, Trajectory
-from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
+from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 from waypost_learner.rollout.simulator import Simulator
 
 
 @dataclass(frozen=True)
 class Outputs:
-    """What a policy says of a batch of states."""
+    """A policy's outputs for a batch of states."""
 
     logits: NDArray[np.float32]  # [B, n]
-    termination: NDArray[np.float32]  # [B], the probability that beta_g is true; 0 without a termination head
+    termination: NDArray[np.float32]  # [B], the probability of beta_g; 0 without a termination head
 
 
 Policies = Mapping[PolicyKey, Callable[[NDArray[np.float32]], Outputs]]
-"""What is asked about batches of states: a `Policy` or a `QFunction` each."""
+"""Each policy, as a function of a batch float32[B, observation shape]; a `Policy` or a `QFunction`, for example."""
 
 
 @dataclass(frozen=True)
 class Consult:
-    """Ask one policy about one state."""
+    """A rollout's request for the outputs of one policy in one state."""
 
     policy: PolicyKey
     state: State
 
 
 @dataclass(frozen=True)
-class Choosing:
-    """How a policy's outputs become choices."""
+class SelectionSpec:
+    """Action selection: how a policy's outputs become choices, in training and in test."""
 
-    temperature: float = 0.1  # of the softmax that choices are drawn from, in training and in test; 0: the best
-    termination_threshold: float = 0.9  # beta_g fires above it
+    temperature: float = 0.1  # of the softmax from which choices are drawn; 0 takes the highest logit
+    termination_threshold: float = 0.9  # beta_g is true above it
 
 
-def nowhere_twice(_: Any) -> Hashable:
-    """Be no place that another state is in: the place of a state in a domain that knows of none."""
+@dataclass(frozen=True)
+class RolloutSpec:
+    """The values of a preset that fix how policies are rolled out."""
+
+    choosing: SelectionSpec
+    h_hi: int | None = None  # most subgoals of an episode; the domain's horizon if None
+    repeat_penalty: float = 0.0  # taken off a subgoal's logit for each earlier choice of it in the same place
+
+
+def unique_place(_: Any) -> Hashable:
+    """Return a place that no other state shares: for domains that declare no places."""
     return object()
 
 
 @dataclass(frozen=True)
-class Manner:
-    """How one rollout chooses."""
+class Behavior:
+    """The behavior policy of one rollout: how it turns outputs into choices, and when it ends subgoals."""
 
-    choosing: Choosing
+    choosing: SelectionSpec
     rng: np.random.Generator
     h_hi: int  # most subgoals of an episode
-    epsilons: Mapping[PolicyKey, float] = field(default_factory=dict)  # policies in it choose epsilon-greedily
-    terminations_given: bool = False  # terminal(s; g) is the domain's (Algorithm 3), not beta_g's
-    repeat_penalty: float = 0.0  # off the logit of a subgoal, for each time it was chosen in the same place before
-    place: Callable[[Any], Hashable] = nowhere_twice  # where a state is, by its JSON view
+    epsilons: Mapping[PolicyKey, float] = field(default_factory=dict)  # the policies that choose epsilon-greedily
+    terminations_given: bool = False  # whether the domain gives terminal(s; g) (Algorithm 3), instead of beta_g
+    repeat_penalty: float = 0.0  # taken off a subgoal's logit for each earlier choice of it in the same place
+    place: Callable[[Any], Hashable] = unique_place  # maps a state's JSON view to its place
 
     def choose(self, policy: PolicyKey, logits: NDArray[np.float32]) -> int:
-        """Choose by the outputs of a policy, float32[n]: from their softmax at the temperature, or epsilon-greedily."""
+        """Choose by a policy's logits float32[n]: from their softmax at the temperature, or epsilon-greedily."""
         epsilon = self.epsilons.get(policy)
         if epsilon is None:
             return choose(logits, self.choosing, self.rng)
@@ -76,75 +85,86 @@ class Manner:
 Rollout = Generator[Consult, tuple[NDArray[np.float32], float], Trajectory]
 
 
-def hierarchical_rollout(simulator: Simulator, instance: Any, manner: Manner) -> Rollout:
-    """Roll out mu and pi_g until the episode ends or the horizon H_HI is spent; return sigma."""
+def hierarchical_rollout(simulator: Simulator, instance: Any, behavior: Behavior) -> Rollout:
+    """Roll out mu and pi_g from the start of an instance, until the episode or H_HI ends; return sigma."""
     sigma: list[Segment] = []
     state = simulator.reset(instance)
     chosen: Counter[tuple[Hashable, Subgoal]] = Counter()
-    while not simulator.ended and len(sigma) < manner.h_hi:
+    while not simulator.ended and len(sigma) < behavior.h_hi:
         logits, _ = yield Consult(META, state)
-        here = manner.place(state.view)
-        before = np.array([chosen[here, subgoal] for subgoal in range(len(logits))], np.float32)
-        subgoal = manner.choose(META, logits - manner.repeat_penalty * before)
-        chosen[here, subgoal] += 1
-        segment = yield from execute_subgoal(simulator, state, subgoal, manner)
+        place = behavior.place(state.view)
+        repeats = np.array([chosen[place, subgoal] for subgoal in range(len(logits))], np.float32)
+        subgoal = behavior.choose(META, logits - behavior.repeat_penalty * repeats)
+        chosen[place, subgoal] += 1
+        segment = yield from execute_subgoal(simulator, state, subgoal, behavior)
         sigma.append(segment)
         state = segment.states[-1]
     return tuple(sigma)
 
 
 def execute_subgoal(
-    simulator: Simulator, state: State, subgoal: Subgoal, manner: Manner
+    simulator: Simulator, state: State, subgoal: Subgoal, behavior: Behavior
 ) -> Generator[Consult, tuple[NDArray[np.float32], float], Segment]:
-    """Execute pi_g until its subgoal has ended, the horizon H_LO is spent or the episode ends; return (s, g, tau).
+    """Execute pi_g until the subgoal, H_LO or the episode ends; return the segment (s, g, tau).
 
-    beta_g is not asked in the first state: a subgoal's end is where the next one starts, so it would end the segment
-    before its first step.
+    beta_g is not consulted in the segment's first state: it would end the segment before its first action.
     """
-    states, actions, rewards = [state], list[int](), list[float]()
+    key, states, actions, rewards = pi(subgoal), [state], list[int](), list[float]()
     terminated, outcome = False, None
     while not terminated and not simulator.ended and len(actions) < simulator.domain.horizons.lo:
-        logits, termination = yield Consult(subgoal, states[-1])
-        if not manner.terminations_given and actions and termination > manner.choosing.termination_threshold:
+        logits, termination = yield Consult(key, states[-1])
+        if not behavior.terminations_given and actions and termination > behavior.choosing.termination_threshold:
             terminated = True
             break
-        actions.append(manner.choose(subgoal, logits))
+        actions.append(behavior.choose(key, logits))
         states.append(simulator.step(actions[-1]))
         rewards.append(simulator.reward)
-        if manner.terminations_given:
+        if behavior.terminations_given:
             outcome = simulator.outcome(state, subgoal)
             if outcome is None and len(actions) == simulator.domain.horizons.lo:
-                outcome = "failed"  # a subpolicy that goes to and fro must not find that harmless
+                outcome = "failed"  # otherwise going back and forth would cost a subpolicy nothing
             terminated = outcome is not None
     return Segment(subgoal, tuple(states), tuple(actions), terminated, tuple(rewards), outcome, simulator.final)
 
 
-def flat_rollout(simulator: Simulator, instance: Any, manner: Manner) -> Rollout:
-    """Roll out a flat policy until the episode ends; return tau_FULL as one segment without a subgoal."""
+def flat_rollout(simulator: Simulator, instance: Any, behavior: Behavior) -> Rollout:
+    """Roll out a flat policy from the start of an instance until the episode ends.
+
+    Return tau_FULL as one segment without a subgoal.
+    """
     states, actions, rewards = [simulator.reset(instance)], list[int](), list[float]()
     while not simulator.ended:
         logits, _ = yield Consult(FLAT, states[-1])
-        actions.append(manner.choose(FLAT, logits))
+        actions.append(behavior.choose(FLAT, logits))
         states.append(simulator.step(actions[-1]))
         rewards.append(simulator.reward)
     return (Segment(None, tuple(states), tuple(actions), False, tuple(rewards), final=simulator.final),)
 
 
-def choose(logits: NDArray[np.float32], choosing: Choosing, rng: np.random.Generator) -> int:
-    """Draw from the softmax of `logits` [n] at the temperature."""
+def choose(logits: NDArray[np.float32], choosing: SelectionSpec, rng: np.random.Generator) -> int:
+    """Return a choice drawn from the softmax of `logits` float32[n] at the temperature."""
     if choosing.temperature == 0:
         return int(np.argmax(logits))
     scaled = (logits - logits.max()) / choosing.temperature
-    # Gumbel's trick: the largest of logits plus Gumbel noise is a draw from their softmax.
+    # The Gumbel-max trick: the argmax of logits plus Gumbel noise is a draw from their softmax.
     return int(np.argmax(scaled + rng.gumbel(size=len(logits))))
 
 
 def run_all(
     rollouts: Sequence[Rollout], policies: Policies, stepped: Callable[[PolicyKey], None] = lambda _: None
 ) -> list[Trajectory]:
-    """Run rollouts in step, each network seeing all the states it is asked about as one batch.
+    """Run rollouts in parallel, so that each network evaluates the states that wait for it as one batch.
 
-    `stepped` is called after each choice with the policy that made it, which may learn then.
+    Args:
+        rollouts: which to run.
+        policies: every policy that they consult.
+        stepped: called with a policy's key after each of its choices; a Q-function is updated there.
+
+    Returns:
+        the trajectories, in the order of `rollouts`.
+
+    Raises:
+        KeyError: a rollout consults a policy that is not in `policies`.
     """
     results: dict[int, Trajectory] = {}
     waiting: dict[int, Consult] = {}
@@ -159,18 +179,21 @@ def run_all(
     for i, rollout in enumerate(rollouts):
         advance(i, partial(next, rollout))
     while waiting:
+        unknown = {consult.policy for consult in waiting.values()} - policies.keys()
+        if unknown:
+            raise KeyError(f"rollouts consult policies that are not given: {unknown}")
         for key, policy in policies.items():
-            asked = [i for i, consult in waiting.items() if consult.policy == key]
-            if not asked:
+            due = [i for i, consult in waiting.items() if consult.policy == key]
+            if not due:
                 continue
-            outputs: Outputs = policy(np.stack([waiting[i].state.observation for i in asked]))
-            for row, i in enumerate(asked):
-                says = (outputs.logits[row], float(outputs.termination[row]))
-                advance(i, partial(rollouts[i].send, says))
+            outputs: Outputs = policy(np.stack([waiting[i].state.observation for i in due]))
+            for row, i in enumerate(due):
+                received = (outputs.logits[row], float(outputs.termination[row]))
+                advance(i, partial(rollouts[i].send, received))
                 stepped(key)
     return [results[i] for i in range(len(rollouts))]
 
 
 def run(rollout: Rollout, policies: Policies, stepped: Callable[[PolicyKey], None] = lambda _: None) -> Trajectory:
-    """Run one rollout."""
+    """Run one rollout and return its trajectory."""
     return run_all([rollout], policies, stepped)[0]

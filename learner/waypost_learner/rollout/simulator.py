@@ -1,6 +1,7 @@
-"""One environment of a domain, giving `State`s: what networks see together with what experts see."""
+"""A domain's environment that returns `State`s: the observation for networks, together with the view for experts."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,24 +10,29 @@ from waypost.domain import Domain
 from waypost.trajectory import Action, Outcome, State, Subgoal
 
 HeadStart = Callable[[Any], Sequence[Action]]
-"""Returns, for an instance, actions that are carried out before the learner begins."""
+"""Returns the actions that are carried out on an instance before the learner begins."""
 
 
 class Simulator:
-    """A domain's environment, one instance at a time."""
+    """A domain's environment, one instance at a time.
+
+    Args:
+        domain: whose environment to run.
+        head_start: gives the actions to carry out after each reset; none if None.
+    """
 
     def __init__(self, domain: Domain, head_start: HeadStart | None = None) -> None:
         self.domain = domain
         self._head_start = head_start
         self.instance: Any = None
         self.ended = True
-        self.steps = 0
+        self.steps = 0  # since the reset, without the head start
         self.reward = 0.0  # of the last step
         self.final = False  # whether the episode ended for another reason than the time limit
         self._env = domain.make_env()
 
     def reset(self, instance: Any) -> State:
-        """Start an instance; the steps of a head start are not counted."""
+        """Start an instance and carry out the head start, whose steps are not counted. Return the start state."""
         observation, _ = self._env.reset(options={"instance": instance})
         self.instance, self.ended, self.final, self.steps = instance, False, False, 0
         state = State(observation, self.domain.state_view(self._env))
@@ -36,7 +42,7 @@ class Simulator:
         return state
 
     def step(self, action: Action) -> State:
-        """Take one action.
+        """Take one action and return the next state.
 
         Raises:
             RuntimeError: the episode has ended.
@@ -49,10 +55,27 @@ class Simulator:
         return State(observation, self.domain.state_view(self._env))
 
     def outcome(self, origin: State, subgoal: Subgoal) -> Outcome | None:
-        """Return how a subgoal, chosen at `origin`, has ended by now; None while it is under way."""
+        """Return how a subgoal that was chosen at `origin` has ended; None if it has not ended yet."""
         return self.domain.outcome(self.instance, origin.view, self.domain.state_view(self._env), subgoal)
 
     @property
     def succeeded(self) -> bool:
         """Whether the task is accomplished in the present state."""
         return self.domain.succeeded(self._env)
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """The start state s of an episode, with everything else that fixes a rollout from it under given policies.
+
+    Args:
+        state: the start state.
+        instance: the environment instance that starts there.
+        draw: the episode's number among the run's draws of training instances; it seeds the choices.
+        simulator: the environment in which the rollout takes place; after it, in the rollout's last state.
+    """
+
+    state: State
+    instance: Any
+    draw: int
+    simulator: Simulator

@@ -1,9 +1,14 @@
-"""Checkpoints: everything a learner is, in one safetensors file, written so that it is never torn.
+"""Write and read checkpoints: the state of a learner in one safetensors file, which is replaced atomically.
 
-Tensors: `policy.KEY.NAME` (the weights that act), and while a run is under way also `optimizer.KEY.INDEX.NAME`,
-`data.KEY.*` (the buffers), `rng.KEY`, and `due` (the policies that will train on); where what acts is an average,
-`trained.KEY.NAME` (what it is of) and `averaged.KEY` (of how many); for a Q-function `target.KEY.NAME` and `counts.KEY`
-(steps, updates). What else must be known is JSON in the file's metadata. No code is stored, so none can run.
+Tensors, where KEY is a policy's number (`PolicyKey.number`):
+
+- `policy.KEY.NAME`: the weights that act. A finished run's checkpoint has only these.
+- `optimizer.KEY.INDEX.NAME`, `rng.KEY`, `data.KEY.*`: the optimizer, the random generator, the buffer.
+- `due`: the policies that train while the expert answers the next query.
+- `trained.KEY.NAME`, `averaged.KEY`: if an average of the weights acts, the trained weights and the number averaged.
+- `target.KEY.NAME`, `counts.KEY`: a Q-function's target network, and its steps and updates.
+
+The file's metadata holds the `Header` as JSON. No code is stored, so loading a file runs none.
 """
 
 import hashlib
@@ -18,6 +23,7 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save
 
 from waypost_learner.algorithms.learner import Learner
+from waypost_learner.rollout.policy_keys import PolicyKey
 from waypost_learner.runs.config import Progress, TrainConfig
 
 Tensors = dict[str, torch.Tensor]
@@ -25,7 +31,7 @@ Tensors = dict[str, torch.Tensor]
 
 @dataclass(frozen=True)
 class Header:
-    """What a checkpoint is of."""
+    """The run that a checkpoint belongs to, and how far it was."""
 
     run: str
     config: TrainConfig
@@ -33,7 +39,14 @@ class Header:
 
 
 def write(path: Path, learner: Learner, header: Header, weights_only: bool) -> None:
-    """Write a checkpoint: to a temporary file first, synced, then renamed over the old one."""
+    """Write a checkpoint to a temporary file, sync it, and rename it over the previous one.
+
+    Args:
+        path: of the file; its folder is created if it does not exist.
+        learner: whose state to write.
+        header: the run and its progress.
+        weights_only: whether to leave out what only further training needs.
+    """
     tensors = dict(_weights(learner))
     if not weights_only:
         tensors |= _training_state(learner)
@@ -53,10 +66,10 @@ def write(path: Path, learner: Learner, header: Header, weights_only: bool) -> N
 
 
 def read_header(path: Path) -> Header:
-    """Return what a checkpoint is of.
+    """Return the header of a checkpoint.
 
     Raises:
-        ValueError: there is no such checkpoint, or the file is none.
+        ValueError: there is no such file, or it is no checkpoint.
     """
     try:
         with safe_open(path, "pt") as file:
@@ -69,10 +82,10 @@ def read_header(path: Path) -> Header:
 
 
 def load(path: Path, learner: Learner) -> None:
-    """Put a checkpoint's weights, and its training state if it has one, into a learner of the same configuration.
+    """Load the weights of a checkpoint, and its training state if it has one, into a learner.
 
     Raises:
-        ValueError: its networks are others than the learner's, or another version of Waypost wrote it.
+        ValueError: the learner's networks differ from the checkpoint's, or another version of Waypost wrote it.
     """
     with safe_open(path, "pt") as file:
         tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118 (no mapping)
@@ -80,32 +93,35 @@ def load(path: Path, learner: Learner) -> None:
         _restore(tensors, learner)
     except (KeyError, RuntimeError) as error:
         raise ValueError(
-            f"{path} does not fit this version of Waypost; go on with the version that wrote it, or begin anew"
+            f"{path} does not fit this version of Waypost; continue with the version that wrote it, or start a new run"
         ) from error
 
 
 def _restore(tensors: Tensors, learner: Learner) -> None:
     for key, policy in learner.learned.items():
-        policy.acting.load_state_dict(_below(tensors, f"policy.{key}."))
-        if f"rng.{key}" in tensors:
-            policy.rng.set_state(tensors[f"rng.{key}"])
-            _load_optimizer(policy.optimizer, _below(tensors, f"optimizer.{key}."))
-    learner.due = tensors["due"].tolist() if "due" in tensors else []
+        n = key.number
+        policy.acting.load_state_dict(_below(tensors, f"policy.{n}."))
+        if f"rng.{n}" in tensors:
+            policy.rng.set_state(tensors[f"rng.{n}"])
+            _load_optimizer(policy.optimizer, _below(tensors, f"optimizer.{n}."))
+    learner.due = [PolicyKey.of_number(n) for n in tensors["due"].tolist()] if "due" in tensors else []
     for key, policy in learner.imitators.items():
-        if f"rng.{key}" in tensors:
+        n = key.number
+        if f"rng.{n}" in tensors:
             if policy.average is not None:
-                policy.network.load_state_dict(_below(tensors, f"trained.{key}."))
-                policy.average.n_averaged.copy_(tensors[f"averaged.{key}"])
-            learner.data[key].load(_below(tensors, f"data.{key}."))
+                policy.network.load_state_dict(_below(tensors, f"trained.{n}."))
+                policy.average.n_averaged.copy_(tensors[f"averaged.{n}"])
+            learner.data[key].load(_below(tensors, f"data.{n}."))
     for key, q in learner.q.items():
-        if f"rng.{key}" in tensors:
-            q.target.load_state_dict(_below(tensors, f"target.{key}."))
-            q.replay.load(_below(tensors, f"data.{key}."))
-            q.steps, q.updates = tensors[f"counts.{key}"].tolist()
+        n = key.number
+        if f"rng.{n}" in tensors:
+            q.target.load_state_dict(_below(tensors, f"target.{n}."))
+            q.replay.load(_below(tensors, f"data.{n}."))
+            q.steps, q.updates = tensors[f"counts.{n}"].tolist()
 
 
 def weights_hash(learner: Learner) -> str:
-    """Return the SHA-256 of all weights: equal if and only if the policies are, bit by bit."""
+    """Return the SHA-256 of all weights that act. It is equal if and only if the policies are, bit for bit."""
     digest = hashlib.sha256()
     for name, tensor in sorted(_weights(learner)):
         digest.update(name.encode())
@@ -116,30 +132,30 @@ def weights_hash(learner: Learner) -> str:
 def _weights(learner: Learner) -> Iterator[tuple[str, torch.Tensor]]:
     for key, policy in learner.learned.items():
         for name, tensor in policy.acting.state_dict().items():
-            yield f"policy.{key}.{name}", tensor
+            yield f"policy.{key.number}.{name}", tensor
 
 
 def _training_state(learner: Learner) -> Tensors:
-    tensors: Tensors = {"due": torch.tensor(learner.due, dtype=torch.int64)}
+    tensors: Tensors = {"due": torch.tensor([key.number for key in learner.due], dtype=torch.int64)}
     for key, policy in learner.learned.items():
         for index, state in policy.optimizer.state_dict()["state"].items():
-            tensors |= {f"optimizer.{key}.{index}.{name}": tensor for name, tensor in state.items()}
-        tensors[f"rng.{key}"] = policy.rng.get_state()
+            tensors |= {f"optimizer.{key.number}.{index}.{name}": tensor for name, tensor in state.items()}
+        tensors[f"rng.{key.number}"] = policy.rng.get_state()
     for key, data in learner.data.items():
-        tensors |= {f"data.{key}.{name}": tensor for name, tensor in data.tensors().items()}
+        tensors |= {f"data.{key.number}.{name}": tensor for name, tensor in data.tensors().items()}
     for key, policy in learner.imitators.items():
         if policy.average is not None:
-            tensors |= {f"trained.{key}.{name}": tensor for name, tensor in policy.network.state_dict().items()}
-            tensors[f"averaged.{key}"] = policy.average.n_averaged
+            tensors |= {f"trained.{key.number}.{name}": tensor for name, tensor in policy.network.state_dict().items()}
+            tensors[f"averaged.{key.number}"] = policy.average.n_averaged
     for key, q in learner.q.items():
-        tensors |= {f"target.{key}.{name}": tensor for name, tensor in q.target.state_dict().items()}
-        tensors |= {f"data.{key}.{name}": tensor for name, tensor in q.replay.tensors().items()}
-        tensors[f"counts.{key}"] = torch.tensor([q.steps, q.updates])
+        tensors |= {f"target.{key.number}.{name}": tensor for name, tensor in q.target.state_dict().items()}
+        tensors |= {f"data.{key.number}.{name}": tensor for name, tensor in q.replay.tensors().items()}
+        tensors[f"counts.{key.number}"] = torch.tensor([q.steps, q.updates])
     return tensors
 
 
 def _load_optimizer(optimizer: torch.optim.Optimizer, tensors: Tensors) -> None:
-    """Moments are laid out as their parameters are: fused Adam goes through both in the order of memory."""
+    """Load an optimizer's state. Moments get the memory layout of their parameters, as fused Adam requires."""
     parameters = [parameter for group in optimizer.param_groups for parameter in group["params"]]
     state: dict[int, Tensors] = {}
     for path, tensor in tensors.items():

@@ -1,11 +1,15 @@
-"""What fixes a run (with the answers, these values determine every query and every weight), and where one stands."""
+"""The configuration that fixes a run, and how far a run is.
 
-from dataclasses import dataclass
+With the answers to its queries, a configuration determines every query and every weight of a run.
+"""
+
+from dataclasses import asdict, dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
 class TrainConfig:
-    """The values of `waypost train`."""
+    """The options of `waypost train` that change what is learned."""
 
     algorithm: str
     domain: str = "maze"
@@ -13,21 +17,26 @@ class TrainConfig:
     preset: str = "lean"
     seed: int = 0
     episodes: int = 1_000
-    in_flight: int = 1  # episodes open at once; 1 is the paper's loop
-    warm_start: int | None = None  # demonstrations before questions; the preset's number unless given
-    redraw: bool = False  # draw training instances until one fails, as the authors counted episodes
-    head_start: float | None = None  # this share of an optimal trajectory is carried out before the learner begins
-    values: str | None = None  # other values than the preset's: "relabeling=false train_hi.batch=32"
+    in_flight: int = 1  # episodes open at the same time; 1 is the paper's loop
+    warm_start: int | None = None  # episodes of demonstrations; the preset's number if None
+    redraw: bool = False  # draw training instances until one fails, as the authors count episodes
+    head_start: float | None = None  # share of an optimal trajectory that is carried out before the learner begins
+    values: str | None = None  # values that replace the preset's: "relabeling=false train_hi.batch=32"
+
+
+def config_values(config: TrainConfig) -> dict[str, Any]:
+    """Return a configuration as a run stores it: its fields by name, without those that are None."""
+    return {key: value for key, value in asdict(config).items() if value is not None}
 
 
 @dataclass(frozen=True)
 class Progress:
-    """Where a run stands, between two episodes."""
+    """How far a run is, between two episodes."""
 
     episodes: int = 0  # applied
-    draws: int = 0  # training instances drawn; more than episodes where they are drawn until one fails
-    passes: int = 0  # inspections of whole episodes passed in a row
+    draws: int = 0  # training instances drawn; with `redraw`, more than episodes
+    passes: int = 0  # whole-episode inspections that passed in a row
 
 
 START = Progress()
-"""Where a run begins."""
+"""The progress of a new run."""

@@ -1,10 +1,10 @@
-"""The outer loop of the algorithms: get an instance, let the episode ask, apply its labels, Train, test.
+"""The outer loop of the algorithms: draw an instance, ask the episode's queries, learn from its labels, test.
 
-The driver resolves an algorithm's queries through the queue. It may keep several episodes open (`in_flight`); their
-results are applied in episode order, and episode t + K starts right after episode t was applied, so a run is a
-function of its configuration and the answers, never of who was fast. That holds too where policies train on while the
-expert is at the next question: by a fixed amount, and before they act again. Queries are keyed by (episode, ordinal): a
-learner that starts again asks the same ones and pays for nothing twice.
+Several episodes may be open at once (`in_flight`). Their results are applied in episode order, and episode t + K starts
+right after episode t was applied. So a run is a function of its configuration and the answers, whatever order and speed
+the answers have. This also holds for training while the expert is busy: its amount is fixed, and it ends before the
+policies act again. A query is identified by its episode and ordinal, so a learner that is started again asks the same
+queries and pays for each only once.
 """
 
 import time
@@ -17,127 +17,109 @@ from typing import Any
 import numpy as np
 
 from waypost import wire
-from waypost.client import Client, Refused
-from waypost.domain import InstanceSets
-from waypost_learner.algorithms import Algorithm, Episode
-from waypost_learner.algorithms.learner import TEST, TRAIN, Learner
+from waypost_learner.algorithms import Episode
 from waypost_learner.algorithms.queries import HierDemo, Query
-from waypost_learner.algorithms.unasked import unasked
-from waypost_learner.policies.datasets import Labels
+from waypost_learner.algorithms.uninspected import uninspected
+from waypost_learner.policies.labels import Labels
 from waypost_learner.remote.camera import Camera
 from waypost_learner.remote.translation import Translator
-from waypost_learner.rollout.policy_keys import FLAT, META
+from waypost_learner.rollout import streams
 from waypost_learner.rollout.rollout import run
-from waypost_learner.runs.config import START, Progress, TrainConfig
-from waypost_learner.runs.evaluation import attempt
+from waypost_learner.runs.config import START, Progress
+from waypost_learner.runs.instances import Instances
+from waypost_learner.runs.run_queue import RunQueue
+from waypost_learner.runs.setup import Setup
 
-POLL_SECONDS = 30.0
 CHECKPOINT_EVERY = 25  # episodes
-_TRAIN_ORDER, _TEST_ORDER, _VARIATION, _MONITORING = 2, 3, 4, 5  # streams of randomness, beside the rollouts'
-_LARGEST_BATCH = 64  # rollouts in step, when looking for one that fails
-_MOST_DRAWS = 250  # without a failure, the learner has nothing left to ask about for now
-
 
 Withdraw = Callable[[], None]
 Offer = Callable[[int, Translator], Withdraw]
-"""Offers the environment of a demonstration (a query's id, its instance) to whoever plays it."""
+"""Offers the environment of a demonstration, given by the query's id, to people; returns how to withdraw the offer."""
+
+
+@dataclass(frozen=True)
+class Hooks:
+    """What a driver calls. Each hook does nothing unless it is given.
+
+    Args:
+        let_answer: called when queries may be open; an expert in this process answers them there.
+        on_episode: called with each episode's result and the units that its answers cost.
+        checkpoint: called with the progress whenever the run could be resumed from it.
+        offer: called with each demonstration that is not answered at once, so that people can play it.
+    """
+
+    let_answer: Callable[[], None] = lambda: None
+    on_episode: Callable[[wire.EpisodeResult, float], None] = lambda _result, _units: None
+    checkpoint: Callable[[Progress], None] = lambda _progress: None
+    offer: Offer = lambda _query, _translator: lambda: None
 
 
 @dataclass
 class OpenEpisode:
-    """An episode under way."""
+    """An episode that is not applied yet."""
 
     number: int
     translator: Translator
     generator: Generator[Query, Any, Labels]
-    steps: int = 0  # of the learner's rollout; none in a demonstration
-    success: bool | None = None
-    passed: bool | None = None  # what Inspect_FULL said of it, if it was asked
-    ordinal: int = 0
-    pending: int | None = None  # the query it waits for
-    units: float = 0  # what its answers cost
-    labels: Labels | None = None  # what it taught, once it is over
-    withdraw: Withdraw = lambda: None  # its environment, from who may be playing it
+    steps: int = 0  # of the learner's rollout; 0 for a demonstration
+    success: bool | None = None  # of the learner's rollout; None for a demonstration
+    passed: bool | None = None  # the answer to Inspect_FULL, if it was asked
+    ordinal: int = 0  # of the next query
+    pending: int | None = None  # the query whose answer it waits for
+    units: float = 0  # the cost of its answers
+    labels: Labels | None = None  # what it taught, once it has ended
+    withdraw: Withdraw = lambda: None  # withdraws the offer of its environment
 
-    def resume(self, going_on: Callable[[], Query]) -> Query | None:
-        """Let the algorithm go on to its next query; None at its end."""
+    def resume(self, resume: Callable[[], Query]) -> Query | None:
+        """Return the algorithm's next query; None if the episode has ended, with `labels` set."""
         try:
-            return going_on()
-        except StopIteration as over:
-            self.labels = over.value
+            return resume()
+        except StopIteration as end:
+            self.labels = end.value
             return None
-
-
-class BudgetExhausted(Exception):
-    """The run's budget cannot pay the next query."""
 
 
 class Driver:
     """Trains one run.
 
     Args:
-        config: the run's values.
-        algorithm: what an episode is.
-        learner: what is trained.
-        instances: where to train and test.
-        client: the queue, as a learner.
-        run_id: the run, already created.
-        let_answer: called when queries may be open; an expert in this process answers them there.
-        on_episode: called with each episode's result and what its answers cost, in units.
-        offer: called with a demonstration that others are to give, so that they can play it.
-        checkpoint: called with where the run stands whenever it can go on from there.
-        first: where to go on, after a resumed checkpoint.
-        pictures: whether queries carry pictures of their states, where the domain has them; people need them.
+        setup: what fixes the run.
+        queue: the run's queries.
+        hooks: what to call.
+        first: where to continue, after a checkpoint was loaded.
     """
 
-    def __init__(
-        self,
-        config: TrainConfig,
-        algorithm: Algorithm,
-        learner: Learner,
-        instances: InstanceSets,
-        client: Client,
-        run_id: str,
-        let_answer: Callable[[], None] = lambda: None,
-        on_episode: Callable[[wire.EpisodeResult, float], None] = lambda _result, _units: None,
-        checkpoint: Callable[[Progress], None] = lambda _: None,
-        offer: Offer = lambda _query, _translator: lambda: None,
-        first: Progress = START,
-        pictures: bool = False,
-    ) -> None:
-        self._config, self._algorithm, self._learner, self._instances = config, algorithm, learner, instances
-        self._client, self._run_id = client, run_id
-        self._let_answer, self._on_episode, self._checkpoint = let_answer, on_episode, checkpoint
-        self._pictures = pictures
-        self._offer = offer
-        self._test_simulator = learner.make_simulator()
-        # Experience is large, and episodes that learn from it are short.
-        self._checkpoint_every = CHECKPOINT_EVERY * (20 if learner.structure.reinforced else 1)
+    def __init__(self, setup: Setup, queue: RunQueue, hooks: Hooks | None = None, first: Progress = START) -> None:
+        self._config, self._algorithm, self._learner = setup.config, setup.algorithm, setup.learner
+        self._instances = Instances(setup.instances, setup.config.seed)
+        self._queue, self._hooks = queue, hooks or Hooks()
+        self._test_simulator = setup.learner.make_simulator()
+        # Checkpoints of Q-functions are large because of their experience, and their episodes are short.
+        self._checkpoint_every = CHECKPOINT_EVERY * (20 if setup.algorithm.levels.reinforced else 1)
         self._open: deque[OpenEpisode] = deque()
         self._next = self._applied = first.episodes
         self._draws = first.draws
         self._passes = first.passes
-        self._cursor = 0
         self._clock = time.monotonic()
 
     @property
     def progress(self) -> Progress:
-        """Where the run stands."""
+        """How far the run is."""
         return Progress(self._applied, self._draws, self._passes)
 
     def train(self) -> None:
-        """Run to the last episode.
+        """Train to the last episode.
 
         Raises:
             BudgetExhausted: the budget ended first.
-            Refused: the server refused for another reason; a run that was finished by somebody, say.
+            Refused: the server refused for another reason; for example, somebody finished the run.
         """
         try:
             while self._open or self._next < self._config.episodes:
                 while self._may_start():
                     self._start_episode(self._next)
                     self._next += 1
-                self._learner.train_on()
+                self._learner.train_idle()
                 if self._open[0].labels is not None:
                     self._apply(self._open.popleft())
                 else:
@@ -147,86 +129,55 @@ class Driver:
                 episode.withdraw()
 
     def _may_start(self) -> bool:
-        """Return whether the next episode may begin.
+        """Return whether the next episode may start.
 
-        No episode is open at a checkpoint: it would have been rolled out with weights that are gone when a resumed
-        run comes to it again.
+        No episode is open at a checkpoint: a resumed run could not repeat its rollout, which used older weights.
         """
         if self._next % self._checkpoint_every == 0 and self._open:
             return False
         return len(self._open) < self._config.in_flight and self._next < self._config.episodes
 
     def _start_episode(self, number: int) -> None:
-        """Get a new environment instance and go to the first query."""
+        """Draw an instance and run the episode up to its first open query."""
         warm_start = self._algorithm.warm_start if number < self._learner.preset.warm_start else None
-        draw = self._draws if warm_start or not self._config.redraw else self._failing_draw()
+        redraw = self._config.redraw and not warm_start
+        draw = self._instances.failing_draw(self._learner, self._draws) if redraw else self._draws
         self._draws = draw + 1
-        instance = self._train_instance(draw)
+        instance = self._instances.train(draw)
         s = self._learner.start(instance, draw)
         generator = (warm_start or self._episode(number))(s, self._learner)
-        camera = Camera(self._learner.domain, instance) if self._pictures else None
+        camera = Camera(self._learner.domain, instance) if self._queue.pictures else None
         episode = OpenEpisode(number, Translator(self._learner.domain, instance, camera), generator)
         self._open.append(episode)
         query = episode.resume(partial(next, generator))
-        simulator = self._learner.simulator
-        episode.steps, episode.success = simulator.steps, simulator.succeeded if simulator.steps else None
+        if s.simulator.steps:
+            episode.steps, episode.success = s.simulator.steps, s.simulator.succeeded
         self._ask(episode, query)
 
-    def _train_instance(self, draw: int) -> Any:
-        instance = _pick(self._instances.train, self._config.seed, _TRAIN_ORDER, draw)
-        if self._instances.vary is None:
-            return instance
-        return self._instances.vary(instance, np.random.default_rng([self._config.seed, _VARIATION, draw]))
-
     def _episode(self, number: int) -> Episode:
-        """Return what the episode is: the algorithm's, or one that asks nothing, where success is known."""
-        monitoring = self._learner.preset.monitoring
-        chance = np.random.default_rng([self._config.seed, _MONITORING, number])
-        return self._algorithm.episode if monitoring.inspects(self._passes, chance) else unasked
-
-    def _failing_draw(self) -> int:
-        """Return the next draw on whose instance the present policies fail; just the next one if they hardly do.
-
-        Rollouts go in batches that grow while none fails.
-        """
-        first, size = self._draws, 2
-        while first < self._draws + _MOST_DRAWS:
-            draws = range(first, first + size)
-            instances = [self._train_instance(draw) for draw in draws]
-            for draw, success in zip(draws, attempt(self._learner, instances, TRAIN, draws), strict=True):
-                if not success:
-                    return draw
-            first, size = first + size, min(2 * size, _LARGEST_BATCH)
-        return self._draws
+        """Return the algorithm's episode, or one without queries if sampled monitoring skips this episode."""
+        rng = np.random.default_rng([self._config.seed, streams.MONITORING, number])
+        inspects = self._learner.preset.monitoring.inspects(self._passes, rng)
+        return self._algorithm.episode if inspects else uninspected
 
     def _ask(self, episode: OpenEpisode, query: Query | None) -> None:
-        """Ask, and go on with the answers that are there at once."""
+        """Ask an episode's query, and its next ones as long as answers are there immediately."""
         while query is not None:
-            ask = episode.translator.ask(query, episode.number, episode.ordinal)
-            if episode.translator.camera:
-                self._client.upload(episode.translator.camera.developed())
-            try:
-                (asked,) = self._client.ask(self._run_id, [ask])
-            except Refused as refusal:
-                if refusal.name == "budget-exhausted":
-                    raise BudgetExhausted(str(refusal)) from refusal
-                raise
+            translator = episode.translator
+            ask = translator.ask(query, episode.number, episode.ordinal)
+            episode.pending = self._queue.ask(ask, translator.camera.developed() if translator.camera else {})
             episode.ordinal += 1
-            episode.pending = asked.id
-            self._let_answer()
-            asked_before, query = query, self._go_on(episode)
-            if episode.pending is not None and isinstance(asked_before, HierDemo):
-                episode.withdraw = self._offer(asked.id, episode.translator)
+            self._hooks.let_answer()
+            asked, query = query, self._advance(episode)
+            if episode.pending is not None and isinstance(asked, HierDemo):
+                episode.withdraw = self._hooks.offer(episode.pending, translator)
 
-    def _go_on(self, episode: OpenEpisode) -> Query | None:
-        """Use the pending answer, if it is there, and return the next query, if there is one."""
+    def _advance(self, episode: OpenEpisode) -> Query | None:
+        """Use the pending answer and return the next query; None if there is no answer yet or no further query."""
         assert episode.pending is not None
-        try:
-            used = self._client.use(episode.pending)
-        except Refused as refusal:
-            if refusal.name == "not-answered":
-                return None
-            raise
+        used = self._queue.use(episode.pending)
+        if used is None:
+            return None
         assert used.answer is not None
         episode.withdraw()
         episode.pending, episode.withdraw = None, lambda: None
@@ -236,47 +187,45 @@ class Driver:
         return episode.resume(partial(episode.generator.send, episode.translator.answer(used.answer)))
 
     def _wait(self) -> None:
-        """Wait for answers, and let the episodes they belong to go on."""
-        self._let_answer()
-        page = self._client.answers(self._run_id, self._cursor, wait=POLL_SECONDS)
-        self._cursor = page.cursor
-        answered = {query.id for query in page.queries}
+        """Wait for answers, and continue the episodes that they belong to."""
+        self._hooks.let_answer()
+        answered = self._queue.answered()
         for episode in self._open:
             if episode.pending in answered:
-                query = self._go_on(episode)
+                query = self._advance(episode)
                 if query is not None:
                     self._ask(episode, query)
 
     def _apply(self, episode: OpenEpisode) -> None:
-        """Learn from an episode, test on an unseen instance, report."""
+        """Learn from an episode, test on an unseen instance, and report both."""
         assert episode.labels is not None
         self._learner.learn(episode.labels)
         if episode.passed is not None:
             self._passes = self._passes + 1 if episode.passed else 0
-        instance = _pick(self._instances.test, self._config.seed, _TEST_ORDER, episode.number)
-        run(self._learner.rollout(self._test_simulator, instance, TEST, episode.number), self._learner.policies)
-        now = time.monotonic()
-        sizes = {key: len(data) for key, data in self._learner.data.items()}
-        result = wire.EpisodeResult(
+        instance = self._instances.test(episode.number)
+        run(self._learner.rollout(self._test_simulator, instance, streams.TEST, episode.number), self._learner.policies)
+        result = self._result(episode)
+        self._queue.report(result)
+        self._applied += 1
+        if self._applied % self._checkpoint_every == 0:
+            self._hooks.checkpoint(self.progress)
+        self._hooks.on_episode(result, episode.units)
+
+    def _result(self, episode: OpenEpisode) -> wire.EpisodeResult:
+        """Return the result of an episode that was just tested."""
+        now, before = time.monotonic(), self._clock
+        self._clock = now
+        sizes = dict.fromkeys(("hi", "lo", "flat"), 0)
+        for key, data in self._learner.data.items():
+            sizes[key.level] += len(data)
+        return wire.EpisodeResult(
             episode=episode.number,
             warm_start=episode.success is None,
             train_success=episode.success,
             test_success=self._test_simulator.succeeded,
             train_steps=episode.steps,
             test_steps=self._test_simulator.steps,
-            hi_labels=sizes.get(META, 0),
-            lo_labels=sum(size for key, size in sizes.items() if key >= 0 or key == FLAT),
-            seconds=round(now - self._clock, 4),
+            hi_labels=sizes["hi"],
+            lo_labels=sizes["lo"] + sizes["flat"],
+            seconds=round(now - before, 4),
         )
-        self._clock = now
-        self._client.report(self._run_id, [result])
-        self._applied += 1
-        if self._applied % self._checkpoint_every == 0:
-            self._checkpoint(self.progress)
-        self._on_episode(result, episode.units)
-
-
-def _pick(instances: Any, seed: int, stream: int, number: int) -> Any:
-    """Return the instance of an episode: all of them in random order, then all again in another."""
-    lap, place = divmod(number, len(instances))
-    return instances[np.random.default_rng([seed, stream, lap]).permutation(len(instances))[place]]

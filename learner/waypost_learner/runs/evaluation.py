@@ -1,13 +1,17 @@
-"""Success on given instances, all rolled out in step so that the networks see batches."""
+"""Measure the success of policies on given instances, all rolled out in parallel."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from waypost_learner.algorithms.learner import TEST, Learner
+from waypost_learner.algorithms.learner import Learner
+from waypost_learner.rollout import streams
 from waypost_learner.rollout.rollout import run_all
+from waypost_learner.runs import checkpoints
+from waypost_learner.runs.setup import build_learner
 
-BATCH = 256
+BATCH = 256  # rollouts
 
 
 @dataclass(frozen=True)
@@ -24,16 +28,23 @@ class Evaluation:
 
 
 def evaluate(learner: Learner, instances: Sequence[Any], episodes: int) -> Evaluation:
-    """Roll out one episode on each instance, beginning again with the first when there are more episodes."""
+    """Roll out one episode on each instance in turn; after the last instance, start with the first again."""
     successes = 0
     for first in range(0, episodes, BATCH):
         numbers = range(first, min(first + BATCH, episodes))
-        successes += sum(attempt(learner, [instances[n % len(instances)] for n in numbers], TEST, numbers))
+        successes += sum(attempt(learner, [instances[n % len(instances)] for n in numbers], streams.TEST, numbers))
     return Evaluation(episodes, successes)
 
 
 def attempt(learner: Learner, instances: Sequence[Any], stream: int, numbers: Sequence[int]) -> list[bool]:
-    """Roll out on each instance, as rollouts of these numbers in a stream of randomness; return which succeed."""
+    """Roll out on each instance and return which rollouts succeed.
+
+    Args:
+        learner: whose present policies to roll out.
+        instances: where to start.
+        stream: the stream of randomness.
+        numbers: of the rollouts in the stream, one per instance.
+    """
     simulators = [learner.make_simulator() for _ in instances]
     rollouts = [
         learner.rollout(simulator, instance, stream, number)
@@ -41,3 +52,22 @@ def attempt(learner: Learner, instances: Sequence[Any], stream: int, numbers: Se
     ]
     run_all(rollouts, learner.policies)
     return [simulator.succeeded for simulator in simulators]
+
+
+def evaluate_run(path: Path, instances: str | None, episodes: int, threads: int | None) -> Evaluation:
+    """Evaluate the policies of a checkpoint on unseen instances.
+
+    Args:
+        path: the checkpoint.
+        instances: a name of instances, or a file; the run's own if None.
+        episodes: how many; 0 for one on each instance.
+        threads: CPU threads; one per core if None.
+
+    Raises:
+        ValueError: there is no such checkpoint, or there are no such instances.
+    """
+    header = checkpoints.read_header(path)
+    learner = build_learner(header.config, threads)
+    checkpoints.load(path, learner)
+    chosen = learner.domain.instances(instances or header.config.instances)
+    return evaluate(learner, chosen.test, episodes or len(chosen.test))

@@ -1,4 +1,4 @@
-"""TensorBoard events of a run, beside its checkpoint: `tensorboard --logdir FOLDER`."""
+"""Write TensorBoard events of a run, beside its checkpoint: `tensorboard --logdir FOLDER`."""
 
 from pathlib import Path
 from types import TracebackType
@@ -9,11 +9,11 @@ from waypost import wire
 
 
 class Tracker:
-    """Writes what each episode brought; use as a context manager.
+    """Writes the results of episodes as events. Use it as a context manager.
 
     Args:
         folder: of this run's events.
-        first: the episode to go on with; events of later ones, from before an interruption, are dropped.
+        first: the first episode of this process; earlier events of it and of later episodes are dropped.
     """
 
     def __init__(self, folder: Path, first: int) -> None:
@@ -29,10 +29,10 @@ class Tracker:
         self._writer.close()
 
     def episode(self, result: wire.EpisodeResult, units: float) -> None:
-        """Write one episode's numbers; `units` is what its answers cost."""
+        """Write the events of one episode, whose answers cost `units`."""
         self._tests = [*self._tests, bool(result.test_success)][-100:]
         values = {
-            "success/test": sum(self._tests) / len(self._tests),  # over the trailing 100, or those since the start
+            "success/test": sum(self._tests) / len(self._tests),  # over the last 100 episodes, or fewer at the start
             "expert/units": units,
             "labels/hi": result.hi_labels,
             "labels/lo": result.lo_labels,

@@ -2,17 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
-from pathlib import Path
 from typing import Protocol
 
 from waypost import wire
 from waypost.client import Client
 from waypost_learner.experiments.figures.data import RunCurves
 from waypost_learner.runs.config import TrainConfig
-from waypost_server.db.engine import Database
-from waypost_server.runs import curves, listing
-
-MOST_RUNS = 100_000
 
 
 class Source(Protocol):
@@ -23,33 +18,6 @@ class Source(Protocol):
 
     def curves(self, run: str) -> wire.Curves:
         """Return success and cost of a run, by episode."""
-
-
-class _Store:
-    """A store, read without a server: drawing figures writes nothing, so it needs no user of its own."""
-
-    def __init__(self, db: Database) -> None:
-        self._db = db
-
-    def runs(self) -> list[wire.Run]:
-        return self._db.read_now(lambda tx: listing.list_runs(tx, listing.Filter(limit=MOST_RUNS))).runs
-
-    def curves(self, run: str) -> wire.Curves:
-        return self._db.read_now(lambda tx: curves.curves(tx, run))
-
-
-@contextmanager
-def stored(file: Path) -> Iterator[Source]:
-    """Open a store to read.
-
-    Raises:
-        ValueError: there is no such file.
-        BadDatabase, NewerStore: with one sentence for the user.
-    """
-    if not file.is_file():  # it would be created
-        raise ValueError(f"there is no store {file}")
-    with closing(Database(f"sqlite:///{file}")) as db:
-        yield _Store(db)
 
 
 @contextmanager

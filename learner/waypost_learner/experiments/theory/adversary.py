@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from waypost_learner.experiments.theory.classes import Classes
 from waypost_learner.experiments.theory.halving import VersionSpace
 from waypost_learner.experiments.theory.task import Task
-from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
+from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 
 
 def worst_instance(task: Task, classes: Classes, policies: dict[PolicyKey, VersionSpace]) -> Any | None:
@@ -48,7 +48,7 @@ def _flat(policy: VersionSpace, right: NDArray[np.int64]) -> _View:
 
 
 def _hierarchical(classes: Classes, policies: dict[PolicyKey, VersionSpace], right: NDArray[np.int64]) -> _View:
-    meta, subpolicies = policies[META], [policies[g] for g in range(len(classes.pi_star))]
+    meta, subpolicies = policies[META], [policies[pi(g)] for g in range(len(classes.pi_star))]
     acts = np.array([one.choices for one in subpolicies])[meta.choices]
     knows = meta.choices == classes.mu_star  # [u]
     kept_lo = np.array([one.votes / one.size for one in subpolicies])[classes.mu_star]  # [u, x, actions]

@@ -27,9 +27,10 @@ from waypost_learner.experiments.theory.classes import N_ACTIONS, Cell, Classes,
 from waypost_learner.experiments.theory.halving import Product, Simple, VersionSpace
 from waypost_learner.experiments.theory.task import Task, observed
 from waypost_learner.experts.oracle import OracleExpert
-from waypost_learner.policies.datasets import Labels
+from waypost_learner.policies.labels import Labels, rows_of
 from waypost_learner.remote.translation import Translator
-from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
+from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
+from waypost_learner.rollout.simulator import Start
 
 Episodes = Literal["worst", "random"]
 """Where episodes come from: an adversary who knows the learner, or chance."""
@@ -45,44 +46,50 @@ class Result:
     mistakes: dict[PolicyKey, int]  # of each policy
 
 
+@dataclass(frozen=True, eq=False)
+class TaskStart:
+    """The start state of an episode. The task has no simulator, as `Start` has."""
+
+    state: State
+    instance: Any
+
+
 class HalvingLearner:
     """Stands in for `Learner`: mu and pi_g, or the flat policy, each a version space."""
 
     def __init__(self, task: Task, classes: Classes, flat: bool) -> None:
         self._task, self._flat = task, flat
-        self._instance: Any = None
         n_subgoals = len(task.subgoals)
-        subpolicies = {g: Simple(classes.pi, N_ACTIONS) for g in range(n_subgoals)}
+        subpolicies = {pi(g): Simple(classes.pi, N_ACTIONS) for g in range(n_subgoals)}
         self.policies: dict[PolicyKey, VersionSpace] = (
             {FLAT: Product(classes)} if flat else {META: Simple(classes.mu, n_subgoals), **subpolicies}
         )
 
-    def start(self, instance: Any) -> State:
+    def start(self, instance: Any) -> "TaskStart":
         """Return the start state s of an instance."""
-        self._instance = instance
-        return observed(self._task.first_state(instance))
+        return TaskStart(observed(self._task.first_state(instance)), instance)
 
-    def roll_out(self, s: State) -> Trajectory:
+    def roll_out(self, s: "TaskStart") -> Trajectory:
         """Roll out the present majorities from s."""
-        horizons, sigma = self._task.horizons, list[Segment]()
+        horizons, sigma, state = self._task.horizons, list[Segment](), s.state
         if self._flat:
-            return (self._execute(None, s, horizons.full),)
+            return (self._execute(None, s.instance, state, horizons.full),)
         for _ in range(horizons.hi):
-            sigma.append(self._execute(self.policies[META].choose(s.observation), s, horizons.lo))
-            s = sigma[-1].states[-1]
+            sigma.append(self._execute(self.policies[META].choose(state.observation), s.instance, state, horizons.lo))
+            state = sigma[-1].states[-1]
         return tuple(sigma)
 
-    def _execute(self, subgoal: int | None, s: State, n_steps: int) -> Segment:
-        policy = self.policies[FLAT if subgoal is None else subgoal]
-        states, actions = [s], list[int]()
+    def _execute(self, subgoal: int | None, instance: Any, state: State, n_steps: int) -> Segment:
+        policy = self.policies[FLAT if subgoal is None else pi(subgoal)]
+        states, actions = [state], list[int]()
         for _ in range(n_steps):
             actions.append(policy.choose(states[-1].observation))
-            states.append(observed(self._task.successor(self._instance, states[-1].view, actions[-1])))
+            states.append(observed(self._task.successor(instance, states[-1].view, actions[-1])))
         return Segment(subgoal, tuple(states), tuple(actions), terminated=False)
 
     def learn(self, labels: Labels) -> None:
         """Remove policies that erred."""
-        for key, rows in labels.rows.items():
+        for key, rows in rows_of(labels).items():
             self.policies[key].learn(rows)
 
 
@@ -123,7 +130,7 @@ def simulate(cell: Cell, seed: int, rounds: int, flat: bool, episodes: Episodes)
     for t in range(rounds):
         hard = worst_instance(task, classes, learner.policies) if episodes == "worst" else None
         instance = hard or task.draw_instance(rng)
-        s, stand_in = learner.start(instance), cast(Learner, learner)
+        s, stand_in = cast(Start, learner.start(instance)), cast(Learner, learner)
         episode = flat_dagger(s, stand_in) if flat else hg_dagger(s, stand_in)
         learner.learn(expert.carry_out(episode, instance, t))
     costs = operation_costs(cell, prices)

@@ -1,0 +1,146 @@
+"""Collect what one episode taught, and derive the rows and transitions that the data buffers take from it.
+
+An algorithm appends to `Labels` in the order of the paper's lines. `rows_of` and `transitions_of` turn labels into
+buffer entries by policy; `transformed_rows` and `transformed_transitions` apply a symmetry of the domain to them.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from waypost.domain import Structured, Symmetry
+from waypost.trajectory import Action, Segment, Subgoal, Trajectory
+from waypost_learner.policies.datasets import UNLABELED, Row
+from waypost_learner.rollout.experience import Transition
+from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
+
+Rows = dict[PolicyKey, list[Row]]
+Transitions = dict[PolicyKey, list[Transition]]
+
+
+@dataclass(frozen=True)
+class LoLabels:
+    """a*_1 .. a*_H (None where the segment should have ended) and omega*_1 .. omega*_{H+1}."""
+
+    actions: tuple[Action | None, ...]
+    terminations: tuple[bool, ...]
+
+
+@dataclass
+class Labels:
+    """What one episode taught: the expert's labels and demonstrations, and the learner's own experience."""
+
+    hi: list[tuple[Trajectory, tuple[Subgoal, ...]]] = field(default_factory=list)
+    lo: list[tuple[Segment, LoLabels]] = field(default_factory=list)
+    demonstrations: list[Trajectory] = field(default_factory=list)  # their labels are in `hi` and `lo` too
+    flat: list[tuple[Trajectory, tuple[Action, ...]]] = field(default_factory=list)
+    experience: list[tuple[PolicyKey, tuple[Transition, ...]]] = field(default_factory=list)
+
+    def append_hi(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> None:
+        """D_HI <- D_HI + {(s_h, g*_h)}."""
+        self.hi.append((trajectory, tuple(good_subgoals)))
+
+    def append_lo(self, segment: Segment, labels: LoLabels) -> None:
+        """D_g <- D_g + {(s, a*, omega*)}, up to the state where the segment should have ended."""
+        self.lo.append((segment, labels))
+
+    def append_demonstration(self, demonstration: Trajectory) -> None:
+        """Lines 5-7 of Algorithm 1: the expert's own subgoals, actions and terminations are the labels."""
+        self.demonstrations.append(demonstration)
+        for segment in demonstration:
+            self.append_lo(segment, _demonstrated(segment))
+        self.append_hi(demonstration, [s.subgoal for s in demonstration if s.subgoal is not None])
+
+    def append_flat(self, trajectory: Trajectory, good_actions: Sequence[Action]) -> None:
+        """D <- D + {(s, a*)} over the full trajectory."""
+        self.flat.append((trajectory, tuple(good_actions)))
+
+    def append_experience(self, key: PolicyKey, transitions: Iterable[Transition]) -> None:
+        """D_g <- D_g + tau_h (Algorithm 3, lines 20 and 22), or the same for another Q-function."""
+        self.experience.append((key, tuple(transitions)))
+
+
+def rows_of(labels: Labels, relabeling: Structured | None = None) -> Rows:
+    """Return the rows that labels add to each policy's buffer, in the order in which the labels were appended.
+
+    Args:
+        labels: of one episode.
+        relabeling: the domain that derives labels for other tasks from these (docs/lean.md); no relabeling if None.
+    """
+    rows: Rows = {}
+    for sigma, good in labels.hi:
+        rows.setdefault(META, []).extend(
+            Row(segment.start.observation, g) for segment, g in zip(sigma, good, strict=True)
+        )
+    for segment, lo in labels.lo:
+        _extend(rows, segment, lo)
+    for tau, actions in labels.flat:
+        rows.setdefault(FLAT, []).extend(_flat_rows(tau, actions))
+    if relabeling is not None:
+        for sigma, good in labels.hi:
+            rows[META] += [Row(observation, g) for observation, g in relabeling.relabeled(sigma, good)]
+        for demonstration in labels.demonstrations:
+            for segment in relabeling.retraced(demonstration):
+                _extend(rows, segment, _demonstrated(segment))
+    return rows
+
+
+def transitions_of(labels: Labels) -> Transitions:
+    """Return the transitions that an episode adds to each Q-function's replay buffer."""
+    transitions: Transitions = {}
+    for key, found in labels.experience:
+        transitions.setdefault(key, []).extend(found)
+    return transitions
+
+
+def transformed_rows(rows: Mapping[PolicyKey, Sequence[Row]], symmetry: Symmetry) -> Rows:
+    """Return rows in a symmetry of the domain: observations, choices and policies are the transformed ones."""
+
+    def transformed(key: PolicyKey, row: Row) -> Row:
+        choice = UNLABELED if row.choice == UNLABELED else _choices(symmetry, key)[row.choice]
+        return Row(symmetry.observe(row.observation), choice, row.termination)
+
+    return {_key(symmetry, key): [transformed(key, row) for row in found] for key, found in rows.items()}
+
+
+def transformed_transitions(transitions: Mapping[PolicyKey, Sequence[Transition]], symmetry: Symmetry) -> Transitions:
+    """Return transitions in a symmetry of the domain: observations, choices and policies are the transformed ones."""
+
+    def transformed(key: PolicyKey, one: Transition) -> Transition:
+        return replace(one.observed(symmetry.observe), choice=_choices(symmetry, key)[one.choice])
+
+    return {_key(symmetry, key): [transformed(key, one) for one in found] for key, found in transitions.items()}
+
+
+def _extend(rows: Rows, segment: Segment, labels: LoLabels) -> None:
+    """Add the rows of one labeled segment to those of its subgoal's policy."""
+    assert segment.subgoal is not None
+    into = rows.setdefault(pi(segment.subgoal), [])
+    steps = zip(segment.states, (*labels.actions, None), labels.terminations, strict=True)
+    for step, (state, action, ends) in enumerate(steps):
+        choice = UNLABELED if ends or action is None else action
+        termination = UNLABELED if step == 0 else int(ends)
+        if choice != UNLABELED or termination != UNLABELED:
+            into.append(Row(state.observation, choice, termination))
+        if ends:
+            break
+
+
+def _flat_rows(trajectory: Trajectory, good_actions: Sequence[Action]) -> Iterable[Row]:
+    """Return a row for each different pair of observation and action; a learner that goes in circles repeats them."""
+    states = [state for segment in trajectory for state in segment.states[:-1]]
+    pairs = zip((state.observation for state in states), good_actions, strict=True)
+    return {(observation.tobytes(), action): Row(observation, action) for observation, action in pairs}.values()
+
+
+def _demonstrated(segment: Segment) -> LoLabels:
+    """Return the labels of a segment that the expert carried out: its actions, and a termination at its end."""
+    return LoLabels(segment.actions, (*(False for _ in segment.actions), True))
+
+
+def _key(symmetry: Symmetry, key: PolicyKey) -> PolicyKey:
+    return key if key.subgoal is None else pi(symmetry.subgoals[key.subgoal])
+
+
+def _choices(symmetry: Symmetry, key: PolicyKey) -> tuple[int, ...]:
+    """Return what each choice of a policy becomes."""
+    return symmetry.subgoals if key == META else symmetry.actions

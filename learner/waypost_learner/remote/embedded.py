@@ -1,0 +1,90 @@
+"""Run the server's app in this process on an SQLite store, or read a store without a server.
+
+Apart from `cli.py` and `demo.py`, this is the only module of the learner that imports the server.
+"""
+
+from collections.abc import Iterator
+from contextlib import ExitStack, closing, contextmanager
+from pathlib import Path
+
+from waypost import wire
+from waypost.client import Client
+from waypost_learner.remote.connection import Connection
+from waypost_learner.remote.in_process import InProcessTransport
+from waypost_server.app import create_app
+from waypost_server.auth import tokens
+from waypost_server.db.engine import BadDatabase, Database
+from waypost_server.db.schema import NewerStore
+from waypost_server.runs import curves, listing
+from waypost_server.settings import Settings
+from waypost_server.users import service as users
+
+_MOST_RUNS = 100_000
+
+
+@contextmanager
+def embedded(store: Path) -> Iterator[Connection]:
+    """Connect to the server's app in this process, on an SQLite file that is created if it does not exist.
+
+    Raises:
+        ValueError: the file cannot be used as a store; the message is one sentence for the user.
+    """
+    with ExitStack() as stack:
+        with _unusable_store():
+            connection = _start(store, stack)
+        yield connection
+
+
+def _start(store: Path, stack: ExitStack) -> Connection:
+    app = create_app(Settings(database=f"sqlite:///{store}"))
+    transport = stack.enter_context(InProcessTransport(app))
+    db = app.state.context.db
+
+    def connect(name: str, role: wire.Role) -> Client:
+        user = db.write_now(lambda tx: users.ensure_user(tx, name, role))
+        token = db.write_now(lambda tx: tokens.create_token(tx, user.id, "embedded"))
+        stack.callback(db.write_now, lambda tx: tokens.revoke_token(tx, token.id))
+        client = Client("http://localhost", token.token, transport)
+        stack.callback(client.close)
+        return client
+
+    return Connection(connect("learner", "learner"), connect("oracle", "annotator"))
+
+
+class StoredRuns:
+    """The runs of a store and their curves, read without a server or a user."""
+
+    def __init__(self, db: Database) -> None:
+        self._db = db
+
+    def runs(self) -> list[wire.Run]:
+        """Return the runs, newest first."""
+        return self._db.read_now(lambda tx: listing.list_runs(tx, listing.Filter(limit=_MOST_RUNS))).runs
+
+    def curves(self, run: str) -> wire.Curves:
+        """Return success and cost of a run, by episode."""
+        return self._db.read_now(lambda tx: curves.curves(tx, run))
+
+
+@contextmanager
+def stored_runs(file: Path) -> Iterator[StoredRuns]:
+    """Open an SQLite store to read its runs.
+
+    Raises:
+        ValueError: there is no such file, or it is not a store; the message is one sentence for the user.
+    """
+    if not file.is_file():  # opening it would create it
+        raise ValueError(f"there is no store {file}")
+    with ExitStack() as stack:
+        with _unusable_store():
+            runs = StoredRuns(stack.enter_context(closing(Database(f"sqlite:///{file}"))))
+        yield runs
+
+
+@contextmanager
+def _unusable_store() -> Iterator[None]:
+    """Turn the server's errors about a store into ValueErrors with the same sentence."""
+    try:
+        yield
+    except (BadDatabase, NewerStore) as error:
+        raise ValueError(str(error)) from error

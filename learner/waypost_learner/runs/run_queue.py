@@ -1,0 +1,66 @@
+"""One run's queries at a server: ask them, use their answers, wait for answers, report episodes."""
+
+from collections.abc import Mapping
+
+from waypost import wire
+from waypost.client import Client, Refused
+
+POLL_SECONDS = 30.0
+
+
+class BudgetExhausted(Exception):
+    """The run's budget cannot pay for the next query."""
+
+
+class RunQueue:
+    """The queries of one run.
+
+    Args:
+        client: of the learner.
+        run: the run's id; the run exists.
+        pictures: whether queries carry pictures of their states, if the domain has pictures. People need them.
+    """
+
+    def __init__(self, client: Client, run: str, pictures: bool = False) -> None:
+        self._client, self._run, self.pictures = client, run, pictures
+        self._cursor = 0
+
+    def ask(self, ask: wire.Ask, frames: Mapping[str, bytes]) -> int:
+        """Ask a query and return its id.
+
+        Args:
+            ask: the query.
+            frames: PNG files by hash, which it refers to and the server may not have.
+
+        Raises:
+            BudgetExhausted: the run's budget cannot pay for it.
+            Refused: the server refused for another reason.
+        """
+        if frames:
+            self._client.upload(frames)
+        try:
+            (asked,) = self._client.ask(self._run, [ask])
+        except Refused as refusal:
+            if refusal.name == "budget-exhausted":
+                raise BudgetExhausted(str(refusal)) from refusal
+            raise
+        return asked.id
+
+    def use(self, query: int) -> wire.Query | None:
+        """Return a query with its answer, which can no longer be retracted; None if there is no answer yet."""
+        try:
+            return self._client.use(query)
+        except Refused as refusal:
+            if refusal.name == "not-answered":
+                return None
+            raise
+
+    def answered(self) -> set[int]:
+        """Return the queries answered since the last call, after waiting up to `POLL_SECONDS` for the first."""
+        page = self._client.answers(self._run, self._cursor, wait=POLL_SECONDS)
+        self._cursor = page.cursor
+        return {query.id for query in page.queries}
+
+    def report(self, result: wire.EpisodeResult) -> None:
+        """Report an episode's result."""
+        self._client.report(self._run, [result])

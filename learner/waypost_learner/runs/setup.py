@@ -1,0 +1,62 @@
+"""Build everything that a configuration names, and refuse configurations that contradict themselves."""
+
+from dataclasses import dataclass
+
+from waypost.domain import InstanceSets, find_domain
+from waypost_learner.algorithms import ALGORITHMS, Algorithm, find_algorithm
+from waypost_learner.algorithms.learner import Learner
+from waypost_learner.experts.head_start import head_start
+from waypost_learner.presets import find_preset
+from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.useless_values import refuse_useless_values
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What fixes a run."""
+
+    config: TrainConfig
+    algorithm: Algorithm
+    learner: Learner
+    instances: InstanceSets
+
+
+def set_up(config: TrainConfig, threads: int | None) -> Setup:
+    """Return what a configuration names, built for a new run.
+
+    Args:
+        config: the run's configuration.
+        threads: CPU threads to train with; one per core if None.
+
+    Raises:
+        ValueError: a name does not exist, a file is no set of instances, or an option or value contradicts another or
+            has no effect; the message says what to write instead.
+    """
+    algorithm = find_algorithm(config.algorithm)
+    if config.redraw and not algorithm.interactive:
+        raise ValueError(f"{config.algorithm} never draws an instance again: leave out --redraw")
+    if config.warm_start is not None and not algorithm.interactive:
+        raise ValueError(f"{config.algorithm} has no warm start: leave out --warm-start")
+    if config.head_start is not None and not algorithm.levels.reinforced:
+        raise ValueError(f"{config.algorithm} learns from an expert alone: leave out --head-start")
+    learner = build_learner(config, threads)
+    if learner.preset.monitoring.share < 1 and (config.redraw or not algorithm.monitored):
+        monitored = ", ".join(name for name, one in ALGORITHMS.items() if one.monitored)
+        raise ValueError(f"monitoring.share below 1 is for {monitored}, without --redraw")
+    refuse_useless_values(config, algorithm, learner)
+    return Setup(config, algorithm, learner, learner.domain.instances(config.instances))
+
+
+def build_learner(config: TrainConfig, threads: int | None) -> Learner:
+    """Return a new learner of a configuration, which a finished run may have had.
+
+    Raises:
+        ValueError: a name does not exist, or the preset's values contradict each other.
+    """
+    levels = find_algorithm(config.algorithm).levels
+    preset = find_preset(config.preset, config.values)
+    if config.warm_start is not None:
+        preset = preset.with_values(warm_start=config.warm_start)
+    domain = find_domain(config.domain)
+    start = None if config.head_start is None else head_start(domain, config.head_start)
+    return Learner(domain, preset, config.seed, levels, threads, start)

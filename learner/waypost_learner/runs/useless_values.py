@@ -1,0 +1,93 @@
+"""Refuse values that a user sets with `--values` and that the run would ignore."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from waypost.domain import Structured
+from waypost_learner.algorithms import Algorithm
+from waypost_learner.algorithms.learner import Learner
+from waypost_learner.policies.networks import PlanningSpec
+from waypost_learner.presets import Changes, parse_values
+from waypost_learner.presets.base import value_of
+from waypost_learner.runs.config import TrainConfig
+
+_SWITCHES = frozenset(
+    {"h_hi", "planning", "relabeling", "repeat_penalty", "symmetries", "tied", "views", "monitoring.share"}
+)
+"""Values that may be set to off, false, 0 or null, also where being on has no effect."""
+
+
+def refuse_useless_values(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> None:
+    """Refuse `--values` that have no effect under an algorithm, a domain and the other values.
+
+    Raises:
+        ValueError: a value has no effect; the message says why.
+    """
+    reasons = _reasons(config.algorithm, algorithm, learner)
+    for name in _leaves(parse_values(config.values)):
+        reason = next((reasons[one] for one in _prefixes(name) if one in reasons), None)
+        if reason is not None and not _is_off(name, learner):
+            raise ValueError(f"{name} has no effect: {reason}; leave it out of --values")
+
+
+def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str]:
+    """Return why values have no effect here, by the name of a value or of a group of values."""
+    levels, domain, preset = algorithm.levels, learner.domain, learner.preset
+    structured = isinstance(domain, Structured)
+    planned = {key for key in learner.learned if isinstance(learner.views[key].network, PlanningSpec)}
+    hi = not (levels.flat or levels.q_hi)
+    checks = {
+        "warm_start": (algorithm.interactive, f"{name} has no warm start"),
+        "h_hi": (not levels.flat, f"{name} has no subgoals"),
+        "repeat_penalty": (not levels.flat and structured, _hierarchy_on_structure(name, domain.name)),
+        "choosing": (levels.imitating, f"{name} chooses epsilon-greedily (dqn.epsilon)"),
+        "choosing.termination_threshold": (not levels.flat and not levels.q_lo, f"{name} has no beta_g"),
+        "network": (planned < learner.learned.keys(), "all its networks plan (planning)"),
+        "train_hi": (hi and not levels.q_lo, f"{name} does not train a mu with it"),
+        "train_hi_hybrid": (hi and levels.q_lo, f"{name} does not train a mu with it"),
+        "train_lo": (not levels.flat and not levels.q_lo, f"{name} has no pi_g that imitates"),
+        "train_flat": (levels.flat and not levels.q_lo, f"{name} has no flat policy that imitates"),
+        "dqn": (levels.reinforced, f"{name} has no Q-function"),
+        "dqn.pseudo": (levels.q_lo and not levels.flat, f"{name} has no Q-function of a subgoal"),
+        "symmetries": (
+            bool(domain.symmetries) and (levels.imitating or preset.use.tied),
+            f"{name} has no policy that imitates, or the domain {domain.name!r} has no symmetries",
+        ),
+        "tied": (
+            any(view.symmetry is not None for view in learner.views.values()),
+            f"{name} has no subgoals, or none in the domain {domain.name!r} are equal up to a symmetry",
+        ),
+        "views": (structured, f"the domain {domain.name!r} declares no views"),
+        "planning": (bool(planned), f"no policy of {name} has a view of the domain {domain.name!r} that shows places"),
+        "relabeling": (hi and structured, _hierarchy_on_structure(name, domain.name)),
+        "monitoring.rate": (preset.monitoring.share < 1, "monitoring.share is 1"),
+        "monitoring.confidence": (preset.monitoring.share < 1, "monitoring.share is 1"),
+    }
+    return {value: reason for value, (has_effect, reason) in checks.items() if not has_effect}
+
+
+def _hierarchy_on_structure(algorithm: str, domain: str) -> str:
+    return f"{algorithm} has no mu that imitates or that repeats subgoals, or the domain {domain!r} has no structure"
+
+
+def _leaves(changes: Changes, above: str = "") -> Iterator[str]:
+    """Yield the full names of assigned values, such as "train_hi.batch"."""
+    for name, change in changes.items():
+        if isinstance(change, str):
+            yield above + name
+        else:
+            yield from _leaves(change, f"{above}{name}.")
+
+
+def _prefixes(name: str) -> Iterator[str]:
+    """Yield "a", "a.b" and "a.b.c" of "a.b.c"."""
+    words = name.split(".")
+    return (".".join(words[:n]) for n in range(1, len(words) + 1))
+
+
+def _is_off(name: str, learner: Learner) -> bool:
+    first, *rest = name.split(".")
+    value: Any = value_of(learner.preset, first)
+    for word in rest:
+        value = getattr(value, word)
+    return name in _SWITCHES and not value

@@ -1,0 +1,69 @@
+"""Configurations: everything that they name is built, and what would be ignored is refused."""
+
+from dataclasses import replace
+
+import pytest
+
+from waypost_learner.experiments import plan
+from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.setup import build_learner, set_up
+
+PLANNED = plan.runs_of(list(plan.GROUPS.values()), seeds=(0,))
+DISTINCT = list(dict.fromkeys(replace(run, instances="random", episodes=1) for run in PLANNED))
+
+
+@pytest.mark.parametrize("config", DISTINCT, ids=lambda run: f"{run.algorithm} {run.preset} {run.values}")
+def test_every_run_of_the_figures_is_one_that_can_be_set_up(config: TrainConfig) -> None:
+    assert set_up(config, threads=1).config == config
+
+
+@pytest.mark.parametrize("algorithm", ["h-bc", "flat-bc", "hg-dagger-q", "h-dqn", "flat-dqn"])
+def test_a_warm_start_is_for_algorithms_that_have_one(algorithm: str) -> None:
+    with pytest.raises(ValueError, match=f"{algorithm} has no warm start: leave out --warm-start"):
+        set_up(TrainConfig(algorithm, domain="corridor", warm_start=2), threads=1)
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "domain", "values", "said"),
+    [
+        ("h-bc", "maze", "warm_start=5", "h-bc has no warm start"),
+        ("hg-dagger", "maze", "train_flat.batch=32", "has no flat policy that imitates"),
+        ("flat-dagger", "maze", "train_lo.batch=32", "has no pi_g that imitates"),
+        ("flat-dagger", "maze", "train_hi.idle=0", "does not train a mu with it"),
+        ("flat-dagger", "maze", "h_hi=5", "has no subgoals"),
+        ("flat-dagger", "maze", "choosing.termination_threshold=0.8", "has no beta_g"),
+        ("flat-dagger", "maze", "tied=true", "has no subgoals"),
+        ("flat-dagger", "maze", "relabeling=true", "has no mu that imitates"),
+        ("flat-dagger", "maze", "planning=16", "no policy of flat-dagger has a view"),
+        ("hg-dagger", "maze", "dqn.batch=32", "has no Q-function"),
+        ("hg-dagger", "maze", "network.hidden=64", "all its networks plan"),
+        ("hg-dagger", "maze", "train_hi_hybrid.batch=32", "does not train a mu with it"),
+        ("hg-dagger-q", "maze", "train_hi.batch=32", "does not train a mu with it"),
+        ("h-dqn", "maze", "choosing.temperature=0.2", "chooses epsilon-greedily"),
+        ("flat-dqn", "maze", "dqn.pseudo.step=-0.1", "has no Q-function of a subgoal"),
+        ("hg-dagger", "corridor", "planning=16", "no policy of hg-dagger has a view"),
+        ("hg-dagger", "maze", "monitoring.rate=0.8", "monitoring.share is 1"),
+    ],
+)
+def test_a_value_without_effect_is_refused_with_the_reason(algorithm: str, domain: str, values: str, said: str) -> None:
+    name, _, _ = values.partition("=")
+    with pytest.raises(ValueError, match=rf"^{name} has no effect: .*{said}.*; leave it out of --values$"):
+        set_up(TrainConfig(algorithm, domain=domain, values=values), threads=1)
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "domain", "values"),
+    [
+        ("flat-dagger", "maze", "views=false planning=null tied=false relabeling=false repeat_penalty=0"),
+        ("hg-dagger", "corridor", "planning=null"),
+        ("hg-dagger", "maze", "planning=null network.hidden=64"),
+        ("hg-dagger-q", "maze", "train_hi_hybrid.batch=32 dqn.batch=32"),
+        ("hg-dagger", "maze", "monitoring.share=0.5 monitoring.rate=0.8"),
+    ],
+)
+def test_values_with_an_effect_and_switched_off_ones_are_accepted(algorithm: str, domain: str, values: str) -> None:
+    set_up(TrainConfig(algorithm, domain=domain, values=values), threads=1)
+
+
+def test_a_learner_of_an_older_run_is_built_though_some_values_had_no_effect() -> None:
+    assert build_learner(TrainConfig("h-bc", domain="corridor", warm_start=2), threads=1).preset.warm_start == 2
