@@ -1,4 +1,4 @@
-"""Runs out of a store or from a server, found by what fixes them."""
+"""Reads the curves of runs from a store or from a server, and finds runs by their configuration."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
@@ -16,17 +16,17 @@ MOST_RUNS = 100_000
 
 
 class Source(Protocol):
-    """Where runs and their curves are."""
+    """A source of runs and their curves."""
 
     def runs(self) -> list[wire.Run]:
         """Return the runs, newest first."""
 
     def curves(self, run: str) -> wire.Curves:
-        """Return success and cost of a run, by episode."""
+        """Return the success and the cost of a run by episode."""
 
 
 class _Store:
-    """A store, read without a server: drawing figures writes nothing, so it needs no user of its own."""
+    """A store that is read without a server. Reading needs no user and writes nothing."""
 
     def __init__(self, db: Database) -> None:
         self._db = db
@@ -40,13 +40,13 @@ class _Store:
 
 @contextmanager
 def stored(file: Path) -> Iterator[Source]:
-    """Open a store to read.
+    """Open a store for reading.
 
     Raises:
-        ValueError: there is no such file.
-        BadDatabase, NewerStore: with one sentence for the user.
+        ValueError: the file does not exist.
+        BadDatabase, NewerStore: the file cannot be opened as a store; the message is one sentence for the user.
     """
-    if not file.is_file():  # it would be created
+    if not file.is_file():  # SQLite would create it
         raise ValueError(f"there is no store {file}")
     with closing(Database(f"sqlite:///{file}")) as db:
         yield _Store(db)
@@ -54,13 +54,16 @@ def stored(file: Path) -> Iterator[Source]:
 
 @contextmanager
 def served(server: str, token: str) -> Iterator[Source]:
-    """Connect to a server."""
+    """Open a client of a server."""
     with closing(Client(server, token)) as client:
         yield client
 
 
 def read(source: Source, wanted: Sequence[TrainConfig]) -> dict[TrainConfig, RunCurves]:
-    """Return the runs of these configurations; of several of one, the newest of those that got furthest."""
+    """Return the runs with these configurations.
+
+    If several runs have the same configuration, take the one with most episodes; among these, the newest.
+    """
     furthest: dict[TrainConfig, wire.Run] = {}
     for run in source.runs():
         config = _config(run)
@@ -74,8 +77,8 @@ def read(source: Source, wanted: Sequence[TrainConfig]) -> dict[TrainConfig, Run
 
 
 def _config(run: wire.Run) -> TrainConfig | None:
-    """Return what fixes a run, or None if that is nothing this version knows."""
+    """Return the configuration of a run, or None if this version does not know one of its fields."""
     try:
-        return TrainConfig(**run.config)  # type: ignore[arg-type]  # what is no configuration equals none that is wanted
+        return TrainConfig(**run.config)  # type: ignore[arg-type]  # values of wrong types equal no needed configuration
     except TypeError:
         return None
