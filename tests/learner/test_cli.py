@@ -162,7 +162,7 @@ def test_names_that_do_not_exist_are_refused_with_those_that_do() -> None:
     assert re.search(r"'chess'; installed are: .*corridor.*maze", refused("train", "h-bc", "--domain", "chess"))
     assert re.search(r"'best'; those that exist are: .*paper", refused("train", "h-bc", "--preset", "best"))
     assert "random, corners, or a file.npz" in refused("train", "h-bc", "--instances", "circles")
-    assert "those that exist are: random" in refused("train", "h-bc", "--domain", "corridor", "--instances", "all")
+    assert "the only set is: random" in refused("train", "h-bc", "--domain", "corridor", "--instances", "all")
     kinds = refused("oracle", "--kinds", "inspect_full,label_all", "--token", "t")
     assert "'label_all'" in kinds
     assert all(kind in kinds for kind in ("hier_demo", "inspect_full", "label_hi", "inspect_lo", "label_lo"))
