@@ -1,8 +1,8 @@
-"""How many lease-and-answer cycles a second the server does, and how long each takes: `python bench/assignments.py`.
+"""Measures the throughput and the latency of leasing and answering: `python bench/assignments.py`.
 
-A real server process over loopback, queries of about 2 kB, annotators without think time. A cycle is one lease and one
-answer, each acknowledged on disk; in a chain, the answer's reply carries the next lease and a cycle is one call.
-Prints a table per database; asserts nothing.
+A real server process is used over loopback, with queries of about 2 kB and annotators who do not pause. A cycle is one
+lease and one answer, each acknowledged after it is on disk. In a chain, the reply to the answer contains the next
+lease, so a cycle is one call. The script prints a table per database and asserts nothing.
 """
 
 import argparse
@@ -33,11 +33,13 @@ ANNOTATORS = (1, 8, 32)
 BATCH = 100  # queries asked at a time
 BACKLOG = 3_000  # queries kept open
 VOCABULARY = {"domain": "bench", "subgoals": ["here"], "actions": ["up", "down"], "renderer": "none"}
-HEADER = "| database | mode | annot. | cycles/s | limit / ours | p50 ms | p99 ms | max ms | CPU ms/cycle | duplicates |"
+HEADER = (
+    "| database | mode | annotators | cycles/s | limit / ours | p50 ms | p99 ms | max ms | CPU ms/cycle | duplicates |"
+)
 
 
 def query(number: int) -> dict[str, Any]:
-    """A question of about 2 kB: a segment of 20 steps on a 17 x 17 grid."""
+    """Return a query of about 2 kB: a segment of 20 steps on a 17 x 17 grid."""
     cells = [[(number * 31 + row * 17 + column) % 97 for column in range(17)] for row in range(2)]
     states = [{"at": [step % 17, number % 17], "facing": step % 4, "seen": cells[step % 2]} for step in range(21)]
     segment = {"subgoal": "here", "states": states, "actions": ["up"] * 20}
@@ -47,7 +49,7 @@ def query(number: int) -> dict[str, Any]:
 
 @contextmanager
 def serving(database: str) -> Iterator[tuple[str, int, dict[str, str], list[dict[str, str]]]]:
-    """Run `serve` in a process; yields its address, its process id, and the headers of a learner and annotators."""
+    """Run `serve` in a process; yield its address, its process id, and the headers of a learner and of annotators."""
     db = Database(database)
 
     def headers(name: str, role: Any) -> dict[str, str]:
@@ -79,7 +81,7 @@ def _wait_until_ready(url: str) -> None:
 
 
 class Learner(threading.Thread):
-    """Keeps the queue full."""
+    """A learner that keeps about `BACKLOG` queries open."""
 
     def __init__(self, url: str, headers: dict[str, str]) -> None:
         super().__init__(daemon=True)
@@ -97,20 +99,20 @@ class Learner(threading.Thread):
         self._asked += BATCH
 
     def run(self) -> None:
-        """Ask more whenever a batch was answered."""
+        """Ask another batch of queries whenever a batch was answered."""
         while not self._stopping.wait(0.5):
             if self._client.get(f"/runs/{self.run_id}").json()["open_queries"] < BACKLOG - BATCH:
                 self._ask()
 
     def stop(self) -> None:
-        """End the run, so that the next row finds an empty queue."""
+        """Finish the run, so that the next measurement starts without open queries."""
         self._stopping.set()
         self.join()
         self._client.patch(f"/runs/{self.run_id}", json={"state": "finished"})
 
 
 def annotate(url: str, headers: dict[str, str], run: str, until: float, chained: bool) -> tuple[list[float], list[int]]:
-    """Answer until the time is up; returns each cycle's seconds and the queries answered."""
+    """Answer queries until the time `until`; return the seconds of each cycle and the ids of the answered queries."""
     seconds: list[float] = []
     answered: list[int] = []
     held: dict[str, Any] | None = None
@@ -136,7 +138,7 @@ def cpu_seconds(pid: int) -> float:
 
 
 def row(name: str, database: str, n: int, seconds: float, chained: bool, limit: float) -> str:
-    """Measure one line of the table; `limit` is what SQLite alone does on this disk, commits/s."""
+    """Measure and return one row of the table; `limit` is the number of commits/s of SQLite alone on this disk."""
     with serving(database) as (url, pid, learner_headers, annotators):
         learner = Learner(url, learner_headers)
         learner.start()
@@ -158,7 +160,7 @@ def row(name: str, database: str, n: int, seconds: float, chained: bool, limit: 
 
 
 def raw_commits(folder: Path, seconds: float = 2.0) -> float:
-    """Return how many one-row commits a second SQLite itself does on the same disk with synchronous=FULL."""
+    """Return the number of one-row commits/s of SQLite alone on the same disk, with synchronous=FULL."""
     db = sqlite3.connect(folder / "raw.db", isolation_level=None)
     db.execute("PRAGMA journal_mode = WAL")
     db.execute("PRAGMA synchronous = FULL")
@@ -172,7 +174,7 @@ def raw_commits(folder: Path, seconds: float = 2.0) -> float:
 
 
 def machine() -> str:
-    """Name the machine, as the numbers mean nothing without it."""
+    """Describe the machine: the processor, its load, and the versions of Python and SQLite."""
     cpus = Path("/proc/cpuinfo")
     lines = cpus.read_text().splitlines() if cpus.exists() else []
     model = next((line.partition(": ")[2] for line in lines if line.startswith("model name")), platform.processor())
@@ -183,14 +185,13 @@ def machine() -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--seconds", type=float, default=10.0, help="per row")
+    parser.add_argument("--seconds", type=float, default=10.0, help="seconds per row")
     parser.add_argument("--annotators", type=int, nargs="+", default=list(ANNOTATORS))
     parser.add_argument("--databases", nargs="+", default=["SQLite", "PostgreSQL"])
     options = parser.parse_args()
     print(machine())
-    print(
-        f"A query is {len(json.dumps(query(1)))} bytes; {options.seconds:g} s per row; the clients share the cores.\n"
-    )
+    size = len(json.dumps(query(1)))
+    print(f"A query has {size} bytes. Each row takes {options.seconds:g} s. Clients and server share the cores.\n")
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="wp", dir=Path.cwd())))
         targets = {"SQLite": lambda k: f"sqlite:///{folder / f'{k}.db'}"}
@@ -201,7 +202,7 @@ def main() -> None:
             stack.callback(cluster.stop)
             targets["PostgreSQL"] = lambda _: cluster.create()
         limit = raw_commits(folder)
-        print(f"The limit: SQLite alone does {limit:.0f} commits/s on this disk (WAL, FULL, one row).\n")
+        print(f"Upper limit: SQLite alone makes {limit:.0f} commits/s on this disk (WAL, FULL, one row each).\n")
         print(HEADER)
         print("|---" * HEADER.count(" | ") + "|---|")
         for name in options.databases:

@@ -1,8 +1,9 @@
-"""What some of the numbered deviations of docs/paper.md change: `python bench/deviations.py [--store FILE]`.
+"""Measures the effect of some deviations in docs/paper.md: `python bench/deviations.py [--store FILE]`.
 
-Two kinds of measurement. Policies trained alike from nothing on the same demonstrations, but for one value, and held
-against the expert on unseen corner mazes: one seed, so differences of a percent or less say nothing. And, from the
-queries of a store, how often a run came to where a deviation matters. Prints tables; asserts nothing.
+Without a store, the script trains policies from scratch on the same demonstrations. They differ in one value, and are
+compared with the expert on unseen corner mazes. There is only one seed, so differences of a percent or less are not
+significant. With a store, the script counts how often a deviation mattered in its runs. It prints tables and asserts
+nothing.
 """
 
 import argparse
@@ -62,7 +63,7 @@ def dataset(rows: list[Row]) -> Dataset:
 
 
 def hi_rows(sigmas: list[Trajectory], symmetric: bool = False) -> list[Row]:
-    """D_HI of demonstrations."""
+    """Return D_HI of demonstrations; with `symmetric`, in all symmetries."""
     labels = [Labels() for _ in sigmas]
     for one, sigma in zip(labels, sigmas, strict=True):
         one.append_demonstration(sigma)
@@ -73,7 +74,7 @@ def hi_rows(sigmas: list[Trajectory], symmetric: bool = False) -> list[Row]:
 
 
 def without_trail(rows: list[Row]) -> list[Row]:
-    """The same rows without the visited cells."""
+    """Return the rows without the trail of visited cells."""
 
     def hidden(observation: np.ndarray) -> np.ndarray:
         return np.where(observation == TRAIL, np.float32(0), observation)
@@ -82,7 +83,7 @@ def without_trail(rows: list[Row]) -> list[Row]:
 
 
 def with_torch_initialization(policy: Policy) -> None:
-    """Draw the weights as torch does by default, instead of Glorot's."""
+    """Initialize the weights with torch's default instead of Glorot's initialization."""
     torch.manual_seed(0)
     for layer in policy.network:
         if isinstance(layer, torch.nn.Conv2d | torch.nn.Linear):
@@ -92,7 +93,7 @@ def with_torch_initialization(policy: Policy) -> None:
 def hi_accuracy(
     spec: TrainSpec, train: list[Row], test: list[Row], change: Callable[[Policy], None] = lambda _: None
 ) -> str:
-    """Percentage of the expert's unseen states in which a trained mu chooses as the expert does."""
+    """Train a mu, and return the percentage of unseen expert states in which it agrees with the expert."""
     spec = replace(spec, least=HI_SAMPLES, most=HI_SAMPLES)
     policy = Policy(DOMAIN.observation_shape, len(SUBGOALS), False, PAPER.training.network, spec, seed=0)
     change(policy)
@@ -102,11 +103,13 @@ def hi_accuracy(
 
 
 def meta_controllers() -> None:
-    """Deviations 5, 13 and 15."""
+    """Measure deviations 5, 13 and 15."""
     known, unseen = list(demonstrations(True, DEMONSTRATIONS)), list(demonstrations(False, UNSEEN))
     train, test, spec = hi_rows(known), hi_rows(unseen), PAPER.training.train_hi
-    print(f"\nHI choices on {len(test)} unseen states, {HI_SAMPLES:,} samples of {DEMONSTRATIONS} demonstrations\n")
-    print("| deviation | meta-controller | chooses as the expert |\n|---|---|---|")
+    print(
+        f"\nHI choices in {len(test)} unseen states after {HI_SAMPLES:,} samples of {DEMONSTRATIONS} demonstrations\n"
+    )
+    print("| deviation | meta-controller | agrees with the expert |\n|---|---|---|")
     print(f"| | `paper` preset | {hi_accuracy(spec, train, test)} |", flush=True)
     print(f"| 5 | 32-bit floats | {hi_accuracy(replace(spec, bf16=False), train, test)} |", flush=True)
     print(f"| 5 | no dropout | {hi_accuracy(replace(spec, dropout=0), train, test)} |", flush=True)
@@ -120,7 +123,7 @@ def meta_controllers() -> None:
 
 
 class Separate:
-    """pi_g and beta_g as two networks, as the paper has them."""
+    """pi_g and beta_g as two networks, as in the paper."""
 
     def __init__(self, spec: TrainSpec) -> None:
         shape, network = DOMAIN.observation_shape, PAPER.training.network
@@ -128,35 +131,35 @@ class Separate:
         self.ending = Policy(shape, 2, False, network, spec, seed=1)
 
     def train(self, rows: list[Row]) -> None:
-        """Train both, each on the rows that have its label."""
+        """Train each network on the rows that have its label."""
         self.acting.train(dataset([replace(row, termination=UNLABELED) for row in rows if row.choice != UNLABELED]))
         ends = [Row(row.observation, row.termination) for row in rows if row.termination != UNLABELED]
         self.ending.train(dataset(ends))
 
     def __call__(self, observations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return chosen actions and the probability that beta_g is true."""
+        """Return the chosen actions and the probabilities that beta_g is true."""
         logits = self.ending(observations).logits
         return self.acting(observations).logits.argmax(1), np.exp(-np.logaddexp(0, logits[:, 0] - logits[:, 1]))
 
 
 class Headed:
-    """pi_g with beta_g as its extra head."""
+    """pi_g with beta_g as an extra head."""
 
     def __init__(self, spec: TrainSpec) -> None:
         self.policy = Policy(DOMAIN.observation_shape, len(DOMAIN.actions), True, PAPER.training.network, spec, seed=0)
 
     def train(self, rows: list[Row]) -> None:
-        """Train."""
+        """Train the network."""
         self.policy.train(dataset(rows))
 
     def __call__(self, observations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return chosen actions and the probability that beta_g is true."""
+        """Return the chosen actions and the probabilities that beta_g is true."""
         outputs = self.policy(observations)
         return outputs.logits.argmax(1), outputs.termination
 
 
 def lo_rows(sigmas: list[Trajectory], first_state: bool) -> dict[int, list[Row]]:
-    """D_g of demonstrations; with `first_state`, beta_g is false in each segment's first state."""
+    """Return D_g of demonstrations; with `first_state`, label beta_g as false in the first state of each segment."""
     labels = Labels()
     for sigma in sigmas:
         labels.append_demonstration(sigma)
@@ -171,15 +174,15 @@ def lo_rows(sigmas: list[Trajectory], first_state: bool) -> dict[int, list[Row]]
 
 
 def subpolicies() -> None:
-    """Deviations 4 and 7."""
+    """Measure deviations 4 and 7."""
     known = list(demonstrations(True, PAPER.warm_start))
     test = lo_rows(list(demonstrations(False, UNSEEN)), first_state=False)
     spec = replace(PAPER.training.train_lo, least=LO_SAMPLES, most=LO_SAMPLES)
-    print(f"\nSubpolicies on the expert's unseen states, {LO_SAMPLES:,} samples of {PAPER.warm_start} demonstrations\n")
-    print("| deviation | subpolicy | acts as the expert | ends in time | ends too early |\n|---|---|---|---|---|")
+    print(f"\nSubpolicies in unseen expert states, {LO_SAMPLES:,} samples of {PAPER.warm_start} demonstrations\n")
+    print("| deviation | subpolicy | agrees with the expert | ends in time | ends too early |\n|---|---|---|---|---|")
     variants: list[tuple[str, str, Callable[[TrainSpec], Any], bool]] = [
         ("", "`paper` preset", Headed, False),
-        ("4", "beta_g is trained in first states too", Headed, True),
+        ("4", "beta_g is also trained in first states", Headed, True),
         ("7", "two networks", Separate, False),
     ]
     for number, name, make, first_state in variants:
@@ -197,11 +200,11 @@ def subpolicies() -> None:
         print(f"| {number} | {name} | {' | '.join(columns)} |", flush=True)
 
 
-# --- what runs came to
+# --- counts in runs
 
 
 def queries(db: sqlite3.Connection, run: str, kind: str) -> Iterator[tuple[Any, Any]]:
-    """Yield what was asked and what was answered."""
+    """Yield the queries of a kind with their answers, as JSON data."""
     found = db.execute(
         "SELECT ask, content FROM queries JOIN answers ON answers.id = queries.answer_id WHERE queries.run_id = ? "
         "AND kind = ?",
@@ -211,12 +214,12 @@ def queries(db: sqlite3.Connection, run: str, kind: str) -> Iterator[tuple[Any, 
 
 
 def percent(part: int, whole: int) -> str:
-    """A share, and of what."""
+    """Return a percentage and its whole as text."""
     return f"{100 * part / whole:.1f} % of {whole:,}" if whole else "none"
 
 
 def count(db: sqlite3.Connection, run: str, title: str) -> None:
-    """Deviations 3, 4, 10, 11, 12 and 16, in one run."""
+    """Count deviations 3, 4, 10, 11, 12 and 16 in one run."""
     assert DOMAIN.oracle is not None
     segments = actions = followed = 0
     for _, answer in queries(db, run, "hier_demo"):
@@ -238,7 +241,7 @@ def count(db: sqlite3.Connection, run: str, title: str) -> None:
     print(f"\n{title}\n\n| deviation | | |\n|---|---|---|")
     if segments:
         print(f"| 3, 16 | demonstrations: actions, segments | {actions:,}, {segments:,} |")
-        print(f"| 4 | segments followed by one of the same subgoal | {percent(followed, segments)} |")
+        print(f"| 4 | segments followed by a segment with the same subgoal | {percent(followed, segments)} |")
     if chosen:
         print(f"| 10 | agreements that are ties | {percent(ties, chosen)} HI labels |")
         print(f"| 12 | chosen subgoals that are not valid | {percent(invalid, chosen)} |")
@@ -247,9 +250,9 @@ def count(db: sqlite3.Connection, run: str, title: str) -> None:
 
 
 def main() -> None:
-    """Print all that was asked for."""
+    """Train and compare policies, or count in a store."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--store", type=Path, help="a store whose runs on the maze to count in, instead of training")
+    parser.add_argument("--store", type=Path, help="count in the maze runs of this store instead of training")
     file = parser.parse_args().store
     torch.set_num_threads(1)
     if file is None:

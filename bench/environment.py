@@ -1,9 +1,10 @@
-"""How many steps a second the maze environment takes: `python bench/environment.py`.
+"""Measures the steps per second of the maze environment: `python bench/environment.py`.
 
-Beside it, in the same run, a bare limit: the same moves and the same observations in a plain numpy loop without
-gymnasium; and MiniGrid's FourRooms, the nearest public environment, with the same loop in a virtual environment of
-its own. It does other work in a step, so that is no race (`peers/four_rooms.py` says what differs). Actions are random.
-Speeds are the best of several rounds, ratios the median over the rounds. Prints tables; asserts nothing.
+The script compares the environment with two others in the same run. The first is an upper limit: the same moves and
+observations in a plain numpy loop without gymnasium. The second is MiniGrid's FourRooms, the most similar public
+environment, in a separate virtual environment. Its steps do different work (`peers/four_rooms.py`), so the comparison
+is only a rough one. All actions are random. Speeds are the best of several rounds; ratios are medians over the rounds.
+The script prints tables and asserts nothing.
 """
 
 import argparse
@@ -31,11 +32,11 @@ FORMS = ("unwrapped", "as made", "ImgObsWrapper", "FullyObsWrapper")
 ONE, VECTOR = "MazeEnv, one", f"MazeEnv, SyncVectorEnv of {BATCH}"
 LIMITS = {"bare numpy, one maze": ONE, f"bare numpy, {BATCH} mazes at once": VECTOR}
 Loop = Callable[[int], None]  # takes a number of steps
-Timed = Callable[[int], float]  # takes a number of steps and returns how many a second
+Timed = Callable[[int], float]  # takes a number of steps and returns the steps per second
 
 
 def machine() -> str:
-    """The processor, its cores, and how busy it is with other things."""
+    """Describe the machine: the processor, its cores and its load."""
     info = Path("/proc/cpuinfo")
     models = [line.split(":")[1].strip() for line in info.read_text().splitlines() if "model name" in line]
     load = os.getloadavg()[0]
@@ -46,7 +47,7 @@ def machine() -> str:
 
 
 def batched(make: Callable[[], gymnasium.Env]) -> Loop:
-    """Random actions in a vector of environments."""
+    """Return a function that takes random steps in a vector of environments."""
     vector = gymnasium.vector.SyncVectorEnv([make] * BATCH)
 
     def loop(steps: int) -> None:
@@ -59,7 +60,7 @@ def batched(make: Callable[[], gymnasium.Env]) -> Loop:
 
 
 def bare(steps: int) -> None:
-    """The limit: moves, pixels and a copy of them, in plain Python and numpy."""
+    """Take steps in plain Python and numpy: the moves, the observation, and a copy of it. This is the upper limit."""
     mazes = maze_set("random")[0]
     rng = np.random.default_rng(0)
     done, count = True, 0
@@ -83,7 +84,7 @@ def bare(steps: int) -> None:
 
 
 def bare_batched(steps: int) -> None:
-    """The limit for a vector: the same, for all mazes at once."""
+    """Take the same steps for a batch of mazes at once. This is the upper limit of a vector of environments."""
     mazes = maze_set("random")[0]
     rng = np.random.default_rng(0)
     moves, rows = np.array(MOVES), np.arange(BATCH)
@@ -110,7 +111,7 @@ def bare_batched(steps: int) -> None:
 
 
 def timed(loop: Loop) -> Timed:
-    """Measure what runs in this process."""
+    """Return a function that measures a loop in this process."""
 
     def steps_a_second(steps: int) -> float:
         began = time.perf_counter()
@@ -121,7 +122,7 @@ def timed(loop: Loop) -> Timed:
 
 
 def minigrid(peer: Peer, form: str) -> Timed:
-    """Measure one form of FourRooms: fewer steps, as each takes longer."""
+    """Return a function that measures one form of FourRooms, with fewer steps because each takes longer."""
 
     def steps_a_second(steps: int) -> float:
         return steps // FEWER / peer.seconds(form=form, steps=steps // FEWER)
@@ -130,7 +131,7 @@ def minigrid(peer: Peer, form: str) -> Timed:
 
 
 def in_turns(measured: dict[str, Timed], steps: int) -> dict[str, list[float]]:
-    """Measure each in turn, so that each ratio is of figures taken side by side; the first round only warms up."""
+    """Measure all in turn in every round, so that ratios compare the same moments. The first round is a warm-up."""
     speeds: dict[str, list[float]] = {name: [] for name in measured}
     for _ in range(1 + ROUNDS):
         for name, steps_a_second in measured.items():
@@ -139,12 +140,12 @@ def in_turns(measured: dict[str, Timed], steps: int) -> dict[str, list[float]]:
 
 
 def ratio(speeds: dict[str, list[float]], name: str, limit: str) -> float:
-    """How many times as fast `name` is as `limit`."""
+    """Return how many times faster `name` is than `limit`."""
     return statistics.median(a / b for a, b in zip(speeds[name], speeds[limit], strict=True))
 
 
 def print_limits(speeds: dict[str, list[float]]) -> None:
-    print("| environment | steps/s | beside | ratio |")
+    print("| environment | steps/s | compared with | ratio |")
     print("|---|---|---|---|")
     for limit, ours in LIMITS.items():
         print(f"| {limit} | {max(speeds[limit]):,.0f} |  |  |")
@@ -155,7 +156,7 @@ def print_minigrid(speeds: dict[str, list[float]], said: str) -> None:
     print(f"\nMiniGrid-FourRooms-v0: {said}")
     if FORMS[0] not in speeds:
         return
-    print(f"\n| MiniGrid-FourRooms-v0, one | steps/s | {ONE} beside it |")
+    print(f"\n| MiniGrid-FourRooms-v0, one | steps/s | {ONE}: times as fast |")
     print("|---|---|---|")
     for form in FORMS:
         print(f"| {form} | {max(speeds[form]):,.0f} | {ratio(speeds, ONE, form):.1f} |")
@@ -163,7 +164,7 @@ def print_minigrid(speeds: dict[str, list[float]], said: str) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--steps", type=int, default=20_000, help="steps a round")
+    parser.add_argument("--steps", type=int, default=20_000, help="steps per round")
     steps = parser.parse_args().steps
     maze_set("random")
     ours = (bare, random_steps(MazeEnv()), bare_batched, batched(MazeEnv))
@@ -173,9 +174,9 @@ def main() -> None:
         try:
             peer = stack.enter_context(Peer("four_rooms"))
             for form in FORMS:
-                peer.seconds(form=form, steps=1)  # fails now if it fails
+                peer.seconds(form=form, steps=1)  # if it fails, it fails here
             measured |= {form: minigrid(peer, form) for form in FORMS}
-            said = f"{peer.versions}; {steps // FEWER} steps a round"
+            said = f"{peer.versions}; {steps // FEWER} steps per round"
         except Missing as why:
             said = f"not measured: {why}"
         speeds = in_turns(measured, steps)

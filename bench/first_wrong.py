@@ -1,9 +1,10 @@
-"""What runs would have cost with clicks on the first wrong step: `python bench/first_wrong.py RUN... --store FILE`.
+"""Computes what runs cost if experts click on the first wrong step: `python bench/first_wrong.py RUN... --store FILE`.
 
-One click, at the price of an inspection, says that all before a place was right; the rest is then labeled at its own
-price. Labels, and so the whole run, would be the same, so its answers need only be priced again: a Label_HI of n
-subgoals costs 1, or 1 and n less those before the first wrong one; a Label_LO costs less those before it, as its
-Inspect_LO was the click. Prints a table; asserts nothing.
+One click marks all steps before it as correct and costs as much as an inspection. The expert then labels only the
+remaining steps, at the usual price. The labels are the same, so the whole run is the same, and its answers only need
+new prices. A Label_HI without a wrong subgoal costs 1; otherwise 1 plus the labels from the first wrong subgoal on. A
+Label_LO costs the labels from the first wrong action on, because its Inspect_LO becomes the click. The script prints a
+table and asserts nothing.
 """
 
 import argparse
@@ -16,7 +17,7 @@ from waypost_learner.remote.embedded import embedded
 
 
 def kept(query: wire.Query) -> int:
-    """Return how many labels of an answer one click would have given, beyond its own price."""
+    """Return how many units one click saves in this answer: the labels it replaces minus its own price."""
     segments = [] if query.ask.kind == "hier_demo" else query.ask.segments
     match query.answer:
         case wire.LabelHiAnswer(subgoals=subgoals):
@@ -29,7 +30,7 @@ def kept(query: wire.Query) -> int:
 
 
 def _before(own: list[str] | list[str | None], labels: list[str] | list[str | None]) -> int:
-    """Return how many of the learner's own choices come before the first that was not right."""
+    """Return the number of the learner's choices before the first wrong one."""
     return next((place for place, (a, b) in enumerate(zip(own, labels, strict=True)) if a != b), len(labels))
 
 
@@ -40,8 +41,8 @@ def main() -> None:
     parser.add_argument("--store", type=Path, default=Path("waypost.db"))
     arguments = parser.parse_args()
     if not arguments.runs:
-        parser.exit(0, "Give runs that are in the store; without one there is nothing to count.\n")
-    print("| run | 95 % at | with clicks | 99 % at | with clicks | in all | with clicks |")
+        parser.exit(0, "Nothing was counted. Give the ids of runs in the store.\n")
+    print("| run | units to 95 % | with clicks | units to 99 % | with clicks | total units | with clicks |")
     print("|---|---|---|---|---|---|---|")
     with embedded(arguments.store) as connection:
         for run in arguments.runs:

@@ -1,7 +1,7 @@
-"""How a run's policy does on mazes of kinds it was never trained on: `python bench/other_mazes.py RUN --store FILE`.
+"""Measures the success of a run's policy on other kinds of mazes: `python bench/other_mazes.py RUN --store FILE`.
 
-The unseen mazes of both sets, and three hundred of each other kind, drawn from one seed. Prints a table; asserts
-nothing.
+The script uses the unseen mazes of both sets, and 300 mazes of each other kind, which it draws with a fixed seed. It
+prints a table and asserts nothing.
 """
 
 import argparse
@@ -17,26 +17,26 @@ from waypost_learner.runs import checkpoints
 from waypost_learner.runs.evaluation import evaluate
 from waypost_learner.runs.setup import build_learner
 
-N = 300  # of each kind drawn here
+N = 300  # mazes of each kind
 _WALLS = list(walls())
 _ROOM_CELLS = [(row, column) for row in range(17) for column in range(17) if room_of((row, column)) is not None]
-Doors = Callable[[np.random.Generator], NDArray[np.bool_]]  # bool[24, 3]: which cells of each wall are doors
+Doors = Callable[[np.random.Generator], NDArray[np.bool_]]  # returns bool[24, 3]: which cells of each wall are doors
 
 
 def one_each(opened: NDArray[np.bool_], rng: np.random.Generator) -> NDArray[np.bool_]:
-    """Return a door in a random cell of each opened wall."""
+    """Return one door in a random cell of each opened wall."""
     doors = np.zeros((len(_WALLS), 3), bool)
     doors[np.arange(len(_WALLS)), rng.integers(3, size=len(_WALLS))] = opened
     return doors
 
 
 def many_ways(rng: np.random.Generator) -> NDArray[np.bool_]:
-    """Seven walls of ten are open."""
+    """Open each wall with probability 0.7."""
     return one_each(rng.random(len(_WALLS)) < 0.7, rng)
 
 
 def one_way(rng: np.random.Generator) -> NDArray[np.bool_]:
-    """The open walls make a random tree of all rooms: one way leads from each to each."""
+    """Open the walls of a random spanning tree of the rooms, so that exactly one path connects two rooms."""
     joined = {room: {room} for wall in _WALLS for room in wall[:2]}
     opened = np.zeros(len(_WALLS), bool)
     for number in rng.permutation(len(_WALLS)):
@@ -50,12 +50,12 @@ def one_way(rng: np.random.Generator) -> NDArray[np.bool_]:
 
 
 def several_doors(rng: np.random.Generator) -> NDArray[np.bool_]:
-    """Every cell of a wall is a door with probability 0.2, so walls have up to three."""
+    """Make each cell of a wall a door with probability 0.2, so a wall has up to three doors."""
     return rng.random((len(_WALLS), 3)) < 0.2
 
 
 def draw(doors: Doors, least: int, seed: int) -> Iterator[Maze]:
-    """Yield mazes whose shortest path from a random start to a random goal has at least so many steps, without end."""
+    """Yield mazes with random start and goal whose shortest path has at least `least` steps, without end."""
     rng = np.random.default_rng([seed, least])
     while True:
         lava = closed_rooms()
@@ -72,21 +72,21 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("run", nargs="?")
     parser.add_argument("--store", type=Path, default=Path("waypost.db"))
-    parser.add_argument("--checkpoints", type=Path, help="beside the store if absent")
+    parser.add_argument("--checkpoints", type=Path, help="the folder of checkpoints; default: beside the store")
     parser.add_argument("--save", type=Path, help="a folder to write the sets to, as .npz")
     arguments = parser.parse_args()
     if arguments.run is None:
-        parser.exit(0, "Give a run whose checkpoint is there; without one there is nothing to measure.\n")
+        parser.exit(0, "Nothing was measured. Give the id of a run that has a checkpoint.\n")
     folder = arguments.checkpoints or arguments.store.with_name(f"{arguments.store.name}.checkpoints")
     path = folder / f"{arguments.run}.safetensors"
     learner = build_learner(checkpoints.read_header(path).config, threads=None)
     checkpoints.load(path, learner)
     kinds: dict[str, tuple[Doors, int]] = {
-        "many ways, any length": (many_ways, 1),
-        "many ways, at least 20 steps": (many_ways, 20),
-        "one way, at least 40 steps": (one_way, 40),
-        "one way, at least 45 steps": (one_way, 45),
-        "several doors in a wall": (several_doors, 20),
+        "many paths, any length": (many_ways, 1),
+        "many paths, at least 20 steps": (many_ways, 20),
+        "one path, at least 40 steps": (one_way, 40),
+        "one path, at least 45 steps": (one_way, 45),
+        "several doors per wall": (several_doors, 20),
     }
     sets = {f"{name}, unseen": list(learner.domain.instances(name).test) for name in ("random", "corners")}
     for number, (name, (doors, least)) in enumerate(kinds.items()):
@@ -95,7 +95,7 @@ def main() -> None:
         if arguments.save is not None:
             arguments.save.mkdir(parents=True, exist_ok=True)
             save_mazes(arguments.save / f"{name.replace(', ', '-').replace(' ', '-')}.npz", sets[name])
-    print("| mazes | shortest path, median (most) | success |")
+    print("| mazes | shortest path in steps, median (maximum) | success |")
     print("|---|---|---|")
     for name, mazes in sets.items():
         lengths = [int(distances_from(maze.lava, maze.goal)[maze.start]) for maze in mazes]

@@ -1,8 +1,8 @@
-"""How fast the page goes on to the next query, what it weighs, and how soon it starts: `python bench/page.py`.
+"""Measures the web app: the time to the next query, the size, and the start-up time. Run `python bench/page.py`.
 
-A real Chromium against a real server process over loopback. Key to next query is from the key press to the frame that
-shows the next question; the first table has it beside Label Studio, which was measured in the same way, submitting
-with a key. Prints tables; asserts nothing.
+A real Chromium uses a real server process over loopback. The time to the next query is measured from the key press to
+the frame that shows the next query. The tables also have the numbers of Label Studio, measured in the same way. The
+script prints tables and asserts nothing.
 """
 
 import argparse
@@ -22,10 +22,10 @@ from playwright.sync_api import Browser, BrowserContext, Page, Response, sync_pl
 from tests.browser.conftest import FLAGS, WEB, WIDE
 from tests.browser.kit import VOCABULARY, ask, find_chromium
 
-PAUSES = (0.0, 0.5)  # seconds between the next question on the screen and the key that answers it
+PAUSES = (0.0, 0.5)  # seconds between the display of a query and the key press that answers it
 FIRST_LOADS = 5
-# Label Studio Community, `label-studio start` on SQLite, one user and a two-choice task; 15 submits by key and one cold
-# load in headless Chromium 156, on a machine with two busy cores. It sends JS and CSS as they are.
+# Label Studio Community, `label-studio start` on SQLite, with one user and a task with two choices: 15 answers by key
+# and one cold load in headless Chromium 156, on a machine with two busy cores. It sends JS and CSS uncompressed.
 LABEL_STUDIO = {"p50 ms": 501, "max ms": 567, "JS + CSS, kB gzipped": 2_080, "requests": 35, "first task, ms": 3_300}
 
 WATCH = """() => {
@@ -47,13 +47,13 @@ WATCH = """() => {
 
 
 class Asker:
-    """The learner's side: a run with as many queries as are wanted."""
+    """A learner that creates runs with a given number of queries."""
 
     def __init__(self, url: str, headers: dict[str, str]) -> None:
         self._http = httpx2.Client(base_url=f"{url}/api/v1", headers=headers, timeout=60)
 
     def run(self, n: int) -> str:
-        """Create a run and ask n questions, an episode each; return the run's id."""
+        """Create a run, ask n queries with one per episode, and return the run's id."""
         body = {"name": f"{n} questions", "algorithm": "hg-dagger", "seed": 0, "vocabulary": VOCABULARY}
         run = str(self._call("/runs", body)["id"])
         asks = [ask("inspect_full", episode, question=f"Question {episode}") for episode in range(n)]
@@ -68,7 +68,7 @@ class Asker:
 
 @contextmanager
 def person(browser: Browser, url: str, headers: dict[str, str]) -> Iterator[BrowserContext]:
-    """A browser that has never been here, of a person who is logged in."""
+    """Open a browser with an empty cache for a person who is signed in."""
     context = browser.new_context(base_url=url, viewport=WIDE, extra_http_headers=headers)
     context.add_init_script(f"({WATCH})()")
     yield context
@@ -76,7 +76,7 @@ def person(browser: Browser, url: str, headers: dict[str, str]) -> Iterator[Brow
 
 
 def wait_for_task(page: Page, last: str | None = None) -> str:
-    """Wait for a question other than the last one; return its number."""
+    """Wait until the web app shows another query than `last`, and return its id."""
     found = page.wait_for_function(
         """last => {
             const now = document.querySelector('#question')?.dataset.query;
@@ -88,7 +88,7 @@ def wait_for_task(page: Page, last: str | None = None) -> str:
 
 
 def latencies(context: BrowserContext, run: str, n: int, pause: float) -> list[float]:
-    """Answer n questions; return the milliseconds from each key press to the next question."""
+    """Answer n queries, and return the milliseconds from each key press to the next query."""
     page = context.new_page()
     page.goto(f"/work?run={run}")
     shown = wait_for_task(page)
@@ -101,7 +101,7 @@ def latencies(context: BrowserContext, run: str, n: int, pause: float) -> list[f
 
 
 def first_load(context: BrowserContext, run: str) -> tuple[float, list[Response]]:
-    """Open the page cold; return the milliseconds to the first task, and what was fetched by then."""
+    """Open the web app without a cache; return the milliseconds to the first query, and the responses until then."""
     page, fetched = context.new_page(), list[Response]()
     page.on("response", lambda response: fetched.append(response))
     page.goto(f"/work?run={run}")
@@ -110,7 +110,7 @@ def first_load(context: BrowserContext, run: str) -> tuple[float, list[Response]
 
 
 def gzipped(responses: list[Response]) -> float:
-    """Return the size of scripts and style sheets, each gzipped, in kB."""
+    """Return the total size of all scripts and style sheets after gzip, in kB."""
     files = [one.body() for one in responses if one.request.resource_type in {"script", "stylesheet"}]
     return sum(len(gzip.compress(file, 6)) for file in files) / 1_000
 
@@ -123,10 +123,10 @@ def table(header: list[str], rows: list[list[object]]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--answers", type=int, default=200, help="per row of the first table")
+    parser.add_argument("--answers", type=int, default=200, help="answers per row of the first table")
     options = parser.parse_args()
     if not (WEB / "dist" / "index.html").is_file():
-        print("The page is not built: `make web` builds it. Nothing was measured.")
+        print("Nothing was measured, because the web app is not built. Run `make web` first.")
         return
     print(f"{machine()}\n")
     with tempfile.TemporaryDirectory(prefix="wp", dir=Path.cwd()) as folder, sync_playwright() as playwright:
@@ -159,7 +159,12 @@ def measure(browser: Browser, url: str, asker: Asker, annotator: dict[str, str],
     ours = [f"{weight:.0f}", n_requests, f"{statistics.median(starts):.0f}"]
     theirs = [LABEL_STUDIO[name] for name in ("JS + CSS, kB gzipped", "requests", "first task, ms")]
     table(
-        ["the first load, cold", "JS + CSS, kB gzipped", "requests to the first task", "to the first task, ms"],
+        [
+            "first load, without cache",
+            "JS + CSS, kB gzipped",
+            "requests to the first task",
+            "time to the first task, ms",
+        ],
         [["Waypost", *ours], ["Label Studio", *theirs]],
     )
 

@@ -1,8 +1,8 @@
-"""What a run's answers are to a person: keys, decisions and minutes until a success rate was reached.
+"""Estimates a person's work in a run until a success rate was reached, in keys, decisions and minutes.
 
-`python bench/person.py RUN --store FILE`. Counted from the store, query by query: the fewest keys that give each
-answer in the page (docs/annotator.md), and how many things had to be decided for it. Minutes are decisions at the
-stated seconds each, besides the watching. Prints a table; asserts nothing.
+Run `python bench/person.py RUN --store FILE`. For each answer in the store, the script counts the fewest keys that give
+it in the web app (docs/annotator.md), and the decisions that it needs. Minutes are the time to watch plus a fixed
+number of seconds per decision, both defined below. The script prints a table and asserts nothing.
 """
 
 import argparse
@@ -13,8 +13,8 @@ from waypost import wire
 from waypost.client import Client
 from waypost_learner.remote.embedded import embedded
 
-WATCHING = 3.0  # seconds to see what a question is about, an episode played at the page's own pace
-SECONDS: dict[wire.Kind, float] = {  # of one decision
+WATCHING = 3.0  # seconds to watch a query, when the web app plays the episode at its normal speed
+SECONDS: dict[wire.Kind, float] = {  # seconds per decision
     "hier_demo": 0.6,
     "inspect_full": 0.5,
     "inspect_lo": 0.5,
@@ -25,7 +25,7 @@ SECONDS: dict[wire.Kind, float] = {  # of one decision
 
 
 def effort(query: wire.Query) -> tuple[int, int]:
-    """Return the keys and the decisions of an answer."""
+    """Return the number of keys and the number of decisions of an answer."""
     answer = query.answer
     segments = [] if query.ask.kind == "hier_demo" else query.ask.segments
     match answer:
@@ -48,7 +48,7 @@ def effort(query: wire.Query) -> tuple[int, int]:
 
 
 def _last_change(own: list[str] | list[str | None], labels: list[str] | list[str | None]) -> int:
-    """Return how many labels are given one by one before all the learner's other choices are kept."""
+    """Return how many labels must be entered one by one; after these, one key keeps the learner's other choices."""
     changed = [place for place, (before, after) in enumerate(zip(own, labels, strict=True), 1) if before != after]
     return max(changed, default=0)
 
@@ -70,7 +70,7 @@ def main() -> None:
     parser.add_argument("--success", default="0.95", help="0.8, 0.9, 0.95 or 0.99")
     arguments = parser.parse_args()
     if arguments.run is None:
-        parser.exit(0, "Give a run that is in the store; without one there is nothing to count.\n")
+        parser.exit(0, "Nothing was counted. Give the id of a run in the store.\n")
     with embedded(arguments.store) as connection:
         milestone = connection.learner.costs(arguments.run).first_at[arguments.success]
         if milestone is None:
@@ -85,10 +85,9 @@ def main() -> None:
         watching = 0 if query.ask.kind == "hier_demo" else WATCHING
         minutes[query.ask.kind] += (watching + n_decisions * SECONDS[query.ask.kind]) / 60
     asked = Counter(query.ask.kind for query in queries)
-    print(
-        f"Until success was {float(arguments.success):.0%}: episode {milestone.episode}, {milestone.cost:,.0f} units.\n"
-    )
-    print("| question | asked | keys | decisions | minutes |")
+    level = f"{float(arguments.success):.0%}"
+    print(f"Success reached {level} in episode {milestone.episode}, after {milestone.cost:,.0f} units.\n")
+    print("| query | asked | keys | decisions | minutes |")
     print("|---|---|---|---|---|")
     for kind in asked:
         print(f"| {kind} | {asked[kind]} | {keys[kind]} | {decisions[kind]} | {minutes[kind]:.1f} |")

@@ -1,7 +1,8 @@
-"""How long a step of a demonstration takes, from the key to the learner's next state: `python bench/play.py`.
+"""Measures the time of one step of a demonstration, from the key press to the next state: `python bench/play.py`.
 
-A server, a learner and a Chromium, each a process of its own, over loopback. A script plays demonstrations of the maze
-with the keyboard and waits for each state before the next key. Prints a table; asserts nothing.
+A server, a learner and a Chromium are separate processes and communicate over loopback. The script plays
+demonstrations of the maze with the keyboard, and waits for each state before the next key. It prints a table and
+asserts nothing.
 """
 
 import argparse
@@ -43,7 +44,7 @@ WATCH = """() => {
 
 
 def play(page: Page, answer: wire.HierDemoAnswer, subgoals: tuple[str, ...]) -> None:
-    """Play a demonstration, a state at a time."""
+    """Play a demonstration step by step."""
     for segment in answer.segments:
         page.keyboard.press(str(subgoals.index(segment.subgoal or "") + 1))
         for action in segment.actions:
@@ -57,7 +58,7 @@ def play(page: Page, answer: wire.HierDemoAnswer, subgoals: tuple[str, ...]) -> 
 
 
 def measure(server: ServerProcess, page: Page, steps: int) -> dict[str, list[float]]:
-    """Return the milliseconds of each step until the state was there, and until it was drawn."""
+    """Return the milliseconds from each key press until the next state arrived, and until it was drawn."""
     domain = MazeDomain()
     expert, client = OracleExpert(domain), server.client("learner", "learner")
     page.add_init_script(f"({WATCH})()")
@@ -81,7 +82,7 @@ def measure(server: ServerProcess, page: Page, steps: int) -> dict[str, list[flo
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--steps", type=int, default=300, help="how many steps to measure")
+    parser.add_argument("--steps", type=int, default=300, help="the number of steps to measure")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         server = ServerProcess(Path(folder), free_port())
@@ -99,8 +100,9 @@ def main() -> None:
             server.stop()
     load = ", ".join(f"{average:.1f}" for average in os.getloadavg())
     print(f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores, load {load}")
-    print(f"{len(found['drawn'])} steps\n\n| from the key until | p50 ms | p95 ms | max ms |\n|---|---|---|---|")
-    for name, words in (("back", "the learner's state is in the page"), ("drawn", "it is drawn")):
+    print(f"{len(found['drawn'])} steps\n")
+    print("| time from the key press until | p50 ms | p95 ms | max ms |\n|---|---|---|---|")
+    for name, words in (("back", "the state arrives in the web app"), ("drawn", "the state is drawn")):
         values = found[name]
         p95 = statistics.quantiles(values, n=20)[-1]
         print(f"| {words} | {statistics.median(values):.1f} | {p95:.1f} | {max(values):.1f} |")

@@ -1,11 +1,14 @@
-"""How fast policies learn and act, with the paper preset's network: `python bench/training.py`.
+"""Measures how fast policies train and act with the network of the `paper` preset: `python bench/training.py`.
 
-Training: samples a second of `Policy.train` on maze observations, beside others on the same network, data and batch
-size in the same run: a plain torch loop, as one would write it (32-bit floats) and with the same mixed precision and
-layout; and the `imitation` library's behavioral cloning, in 32-bit floats and a virtual environment of its own, which
-does more in a step (`peers/behavioral_cloning.py` says what). Acting: the latency of one state and of a batch. One
-thread, as a learner gives to each policy. Speeds are the best of several rounds, ratios the median over the rounds.
-Prints tables; asserts nothing.
+Training: the script measures `Policy.train` on maze observations in samples per second, and compares it with three
+others that have the same network, data and batch size. Two are plain torch loops: one with 32-bit floats, and one with
+the same mixed precision and memory layout as `Policy.train`. The third is behavioral cloning of the `imitation`
+library, with 32-bit floats, in a separate virtual environment. It does more per step (`peers/behavioral_cloning.py`).
+
+Acting: the script measures the latency for one state and for a batch.
+
+Everything uses one thread, because a learner gives one thread to each policy. Speeds are the best of several rounds;
+ratios are medians over the rounds. The script prints tables and asserts nothing.
 """
 
 import argparse
@@ -36,11 +39,11 @@ from waypost_learner.rollout.simulator import Simulator
 
 ROUNDS = 5
 SPEC = PAPER.training.train_hi
-Round = Callable[[], float]  # does a round of work and returns its seconds
+Round = Callable[[], float]  # does one round of work and returns its duration in seconds
 
 
 def machine(policy: Policy) -> str:
-    """The processor, its cores, how busy it is with other things, and what Train makes of it."""
+    """Describe the machine: the processor, its cores and load, and the precision that training uses on it."""
     info = Path("/proc/cpuinfo")
     models = [line.split(":")[1].strip() for line in info.read_text().splitlines() if "model name" in line]
     load = os.getloadavg()[0]
@@ -50,7 +53,7 @@ def machine(policy: Policy) -> str:
 
 
 def observations(n: int) -> Dataset:
-    """Start states of mazes, labeled at random."""
+    """Return start states of mazes with random labels."""
     domain, rng, data = MazeDomain(), np.random.default_rng(0), Dataset((3, 17, 17))
     simulator, mazes = Simulator(domain), maze_set("random")[0]
     states = (simulator.reset(mazes[number % len(mazes)]) for number in range(n))
@@ -59,7 +62,7 @@ def observations(n: int) -> Dataset:
 
 
 def plain_network(dropout: float) -> nn.Sequential:
-    """Table 1 with torch's own layers."""
+    """Return the network of Table 1, built from torch's layers."""
     network = PAPER.training.network
     return nn.Sequential(
         *table_1((3, 17, 17), network.channels, network.hidden, dropout), nn.Linear(network.hidden, len(SUBGOALS))
@@ -67,7 +70,7 @@ def plain_network(dropout: float) -> nn.Sequential:
 
 
 def plain_loop(data: Dataset, rows: int, bf16: bool) -> Callable[[], None]:
-    """Train as one would write it in torch."""
+    """Return a function that trains a plain torch network."""
     network = plain_network(SPEC.dropout)
     if bf16:
         network = network.to(memory_format=torch.channels_last)
@@ -89,7 +92,7 @@ def plain_loop(data: Dataset, rows: int, bf16: bool) -> Callable[[], None]:
 
 
 def imitation(data: Dataset, folder: Path) -> Peer:
-    """Hand the data over to the library that is trained beside ours."""
+    """Start the `imitation` library in its own process, with the same data."""
     pictures, labels = data[range(len(data))]
     np.savez(folder / "data.npz", observations=pictures.numpy(), labels=labels[:, 0].numpy())
     return Peer(
@@ -104,7 +107,7 @@ def imitation(data: Dataset, folder: Path) -> Peer:
 
 
 def timed(work: Callable[[], object]) -> Round:
-    """Measure what runs in this process."""
+    """Return a function that measures work in this process."""
 
     def one() -> float:
         began = time.perf_counter()
@@ -115,7 +118,7 @@ def timed(work: Callable[[], object]) -> Round:
 
 
 def in_turns(rounds: dict[str, Round]) -> dict[str, list[float]]:
-    """Measure each in turn, so that ratios are of figures taken side by side; the first round only warms up."""
+    """Measure all in turn in every round, so that ratios compare the same moments. The first round is a warm-up."""
     taken: dict[str, list[float]] = {name: [] for name in rounds}
     for _ in range(1 + ROUNDS):
         for name, one in rounds.items():
@@ -124,7 +127,7 @@ def in_turns(rounds: dict[str, Round]) -> dict[str, list[float]]:
 
 
 def ratio(taken: dict[str, list[float]], limit: str, name: str) -> float:
-    """How many times as fast `name` is as `limit`."""
+    """Return how many times faster `name` is than `limit`."""
     return statistics.median(a / b for a, b in zip(taken[limit], taken[name], strict=True))
 
 
@@ -140,12 +143,12 @@ def print_training(policy: Policy, data: Dataset) -> None:
     with ExitStack() as stack:
         try:
             peer = stack.enter_context(imitation(data, Path(stack.enter_context(tempfile.TemporaryDirectory()))))
-            peer.seconds(batches=1)  # fails now if it fails
+            peer.seconds(batches=1)  # if it fails, it fails here
             rounds[peer.versions] = lambda: peer.seconds(batches=math.ceil(rows / SPEC.batch))
         except Missing as why:
             absent = f"| imitation | not measured: {why} | |"
         taken = in_turns(rounds)
-    print(f"| training, batch {SPEC.batch} | samples/s | Policy.train beside it |")
+    print(f"| training, batch {SPEC.batch} | samples/s | Policy.train: times as fast |")
     print("|---|---|---|")
     for name, times in taken.items():
         print(f"| {name} | {rows / min(times):,.0f} | {ratio(taken, name, 'Policy.train'):.2f} |")
@@ -155,7 +158,7 @@ def print_training(policy: Policy, data: Dataset) -> None:
 
 def print_latency(policy: Policy, data: Dataset) -> None:
     network = plain_network(0.0).eval()
-    print("\n| acting | Policy, ms | plain torch, ms | Policy beside it |")
+    print("\n| acting | Policy, ms | plain torch, ms | Policy: times as fast |")
     print("|---|---|---|---|")
     for batch, calls in ((1, 300), (256, 10)):
         pictures = data[range(batch)][0].numpy()

@@ -1,10 +1,10 @@
-"""The `imitation` library's behavioral cloning on Table 1's network, as `bench/training.py` asks for it.
+"""Runs behavioral cloning of the `imitation` library on Table 1's network, for `bench/training.py`.
 
-The network is stable-baselines3's features extractor, without further layers (`net_arch=[]`); its action layer is our
-output layer. Data, batch size, optimizer and learning rate are ours. A step does more than ours: a value layer is
-computed, though not learned from; the loss has an entropy term (weight 1e-3) and computes the L2 norm of all weights
-(weight 0); its torch DataLoader collates each batch row by row, next observations too. It computes in 32-bit floats.
-Its log is silenced.
+The network is the features extractor of stable-baselines3 without more layers (`net_arch=[]`); its action layer is the
+output layer. Data, batch size, optimizer and learning rate are the same as ours. But a step does more than ours: it
+also computes a value layer, which is not trained; the loss has an entropy term (weight 1e-3) and computes the L2 norm
+of all weights (weight 0); and the torch DataLoader collates each batch row by row, including the next observations. It
+uses 32-bit floats, and its log is off.
 """
 
 from collections.abc import Callable, Sequence
@@ -24,7 +24,7 @@ PACKAGES = ("imitation", "stable-baselines3", "torch")
 
 
 class Features(BaseFeaturesExtractor):
-    """Table 1 up to its output layer."""
+    """The network of Table 1 without its output layer."""
 
     def __init__(self, space: gymnasium.Space, channels: Sequence[int], hidden: int, dropout: float) -> None:
         super().__init__(space, hidden)
@@ -36,7 +36,7 @@ class Features(BaseFeaturesExtractor):
 
 
 def start(data: str, choices: int, batch: int, learning_rate: float, **network: object) -> Callable[[int], None]:
-    """Return what trains for a number of batches."""
+    """Return a function that trains for a number of batches."""
     torch.set_num_threads(1)
     rows = np.load(data)
     observations, labels = rows["observations"], rows["labels"]

@@ -1,4 +1,4 @@
-"""Another library, measured in the same run though it needs a virtual environment of its own (`make bench`)."""
+"""Starts another library in a process with its own virtual environment (`make bench` installs it), and measures it."""
 
 import json
 import subprocess
@@ -11,15 +11,15 @@ PYTHON = HERE.parents[1] / ".venv" / "peers" / "bin" / "python"
 
 
 class Missing(Exception):
-    """The peer cannot be measured; says why."""
+    """The peer cannot be measured; the message gives the reason."""
 
 
 class Peer:
-    """A process that does a round of work when it is asked to, and rests in between (`serve.py`)."""
+    """A process that does one round of work per request, and waits otherwise (`serve.py`)."""
 
     def __init__(self, module: str, **settings: Any) -> None:
         if not PYTHON.exists():
-            raise Missing("its environment is not there, which `make bench` installs where it can")
+            raise Missing("its virtual environment does not exist; `make bench` installs it")
         self._said = tempfile.TemporaryFile("w+")  # noqa: SIM115 - closed with the process
         command = [PYTHON, "-E", HERE / "serve.py", module, json.dumps(settings)]
         pipe = subprocess.PIPE
@@ -27,7 +27,7 @@ class Peer:
         self.versions = ", ".join(f"{name} {version}" for name, version in self._answer()["versions"].items())
 
     def seconds(self, **asked: Any) -> float:
-        """Have one round done; how long it took, by the peer's own clock."""
+        """Do one round of work; return its duration in seconds, by the peer's clock."""
         print(json.dumps(asked), file=self._process.stdin, flush=True)
         return self._answer()["seconds"]
 
@@ -36,7 +36,7 @@ class Peer:
             return json.loads(line)
         self._process.wait()
         self._said.seek(0)
-        raise Missing((self._said.read().strip().splitlines() or ["it ended without a word"])[-1])
+        raise Missing((self._said.read().strip().splitlines() or ["it ended without a message"])[-1])
 
     def __enter__(self) -> "Peer":
         return self

@@ -1,9 +1,9 @@
-"""MiniGrid's FourRooms in four forms, as `bench/environment.py` asks for them.
+"""Runs MiniGrid's FourRooms in four forms, for `bench/environment.py`.
 
-The nearest public environment to the maze: 19 x 19 cells, 100 steps at most. It does other work, though. The agent
-has a direction and turns; cells are objects, which could be doors or keys; each step works out what is seen of a
-7 x 7 view behind walls, which FullyObsWrapper computes too before it encodes the whole grid; each reset builds new
-rooms. `gymnasium.make` adds wrappers, which MazeEnv is measured without: "unwrapped" is the one without them.
+FourRooms is the public environment that is most similar to the maze: 19 x 19 cells and at most 100 steps. But its work
+is different. The agent has a direction and must turn. Cells are objects, such as doors or keys. Each step computes the
+visible part of a 7 x 7 view; FullyObsWrapper also computes it, before it encodes the whole grid. Each reset builds new
+rooms. `gymnasium.make` adds wrappers; MazeEnv is measured without them, so compare it with the form "unwrapped".
 """
 
 from collections.abc import Callable
@@ -16,7 +16,7 @@ PACKAGES = ("minigrid", "gymnasium", "numpy")
 
 
 def start() -> Callable[[str, int], None]:
-    """Return what takes a number of steps in one of the forms."""
+    """Return a function that takes a number of steps in one of the forms."""
 
     def made() -> gymnasium.Env:
         return gymnasium.make("MiniGrid-FourRooms-v0")

@@ -1,4 +1,4 @@
-"""Table 1 with torch's own layers, for every learner that is measured beside ours."""
+"""Builds the network of Table 1 from torch's layers, for the libraries that are compared with ours."""
 
 from collections.abc import Sequence
 
@@ -7,7 +7,7 @@ from torch import nn
 
 
 def table_1(shape: Sequence[int], channels: Sequence[int], hidden: int, dropout: float) -> nn.Sequential:
-    """Return the network for pictures of a shape, up to its output layer."""
+    """Return the network for pictures of a shape, without its output layer."""
     layers: list[nn.Module] = []
     width = shape[0]
     for wider in channels:

@@ -1,7 +1,7 @@
-"""Runs in the peers' environment: does a round of a module's work per line that comes in, and says what it took.
+"""Does one round of work for each input line, and prints its duration. It runs in the peers' virtual environment.
 
-Started with a module of this folder and its settings as JSON. The first line out says which versions are measured;
-then comes one line of JSON out, with the seconds, for every line in.
+Its arguments are a module of this folder and the settings of the module as JSON. The first output line contains the
+versions of the measured packages. After this, every input line gives one output line with the seconds, both as JSON.
 """
 
 import importlib
@@ -12,7 +12,7 @@ from importlib.metadata import version
 
 
 def main() -> None:
-    answers, sys.stdout = sys.stdout, sys.stderr  # what libraries print is no answer
+    answers, sys.stdout = sys.stdout, sys.stderr  # keep the output of libraries out of the answers
     peer = importlib.import_module(sys.argv[1])
     work = peer.start(**json.loads(sys.argv[2]))
     print(json.dumps({"versions": {name: version(name) for name in peer.PACKAGES}}), file=answers, flush=True)

@@ -1,4 +1,4 @@
-"""Random actions in an environment: the loop that every environment is measured with."""
+"""Takes random actions in an environment. All environments are measured with this loop."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,7 @@ import numpy as np
 
 
 def random_steps(env: gymnasium.Env) -> Callable[[int], None]:
-    """Return what takes a number of steps, with a reset where an episode ends."""
+    """Return a function that takes a number of random steps and resets the environment after each episode."""
 
     def loop(steps: int) -> None:
         actions = np.random.default_rng(0).integers(env.action_space.n, size=steps)

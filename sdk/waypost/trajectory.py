@@ -1,7 +1,7 @@
-"""The nouns of the paper (section 3), as values that never change.
+"""Defines states, segments and trajectories (paper, section 3) as immutable values.
 
-A hierarchical trajectory sigma is a tuple of segments (s_h, g_h, tau_h); a flat trajectory is one segment without a
-subgoal. Subgoals and actions are numbers here, in the order of the domain's own lists; names only exist on the wire.
+A hierarchical trajectory sigma is a tuple of segments (s_h, g_h, tau_h). A flat trajectory is a tuple of one segment
+without a subgoal. Subgoals and actions are numbers in the order of the domain's lists; only wire messages use names.
 """
 
 from dataclasses import dataclass
@@ -14,12 +14,13 @@ Subgoal = int
 Action = int
 
 Outcome = Literal["reached", "failed"]
-"""How a subgoal ended, where its termination is given (Algorithm 3): success(s; g), or terminal(s; g) without it."""
+"""How a subgoal ended if its termination is given (Algorithm 3): "reached" is success(s; g), "failed" is terminal(s; g)
+without success."""
 
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """One environment state s: what the networks see, and the JSON view that experts see."""
+    """One environment state s: the observation for networks, and the JSON view for experts."""
 
     observation: NDArray[np.float32]
     view: Any
@@ -32,14 +33,14 @@ class Segment:
     subgoal: Subgoal | None
     states: tuple[State, ...]  # s_1 .. s_{H+1}
     actions: tuple[Action, ...]  # a_1 .. a_H
-    terminated: bool  # whether beta_g or terminal(s; g) ended it, rather than the horizon or the episode
-    rewards: tuple[float, ...] = ()  # r_1 .. r_H, the environment's
-    outcome: Outcome | None = None  # how the subgoal ended, where that is given; None if it was cut off
-    final: bool = False  # whether the environment ended in the last state, for another reason than its time limit
+    terminated: bool  # whether beta_g or terminal(s; g) ended it, not the horizon or the episode
+    rewards: tuple[float, ...] = ()  # r_1 .. r_H of the environment
+    outcome: Outcome | None = None  # how the subgoal ended if terminations are given; None if it was cut off
+    final: bool = False  # whether the environment terminated in the last state (a time limit does not count)
 
     @property
     def start(self) -> State:
-        """s_h, where the subgoal was chosen."""
+        """s_h, the state in which the subgoal was chosen."""
         return self.states[0]
 
 
@@ -47,5 +48,5 @@ Trajectory = tuple[Segment, ...]
 
 
 def n_steps(trajectory: Trajectory) -> int:
-    """Return the number of actions in the full trajectory tau_FULL."""
+    """Return the number of actions in all segments, the length of tau_FULL."""
     return sum(len(segment.actions) for segment in trajectory)

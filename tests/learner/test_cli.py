@@ -160,10 +160,12 @@ def test_an_oracle_in_this_process_answers_at_a_real_server_too(
 
 def test_names_that_do_not_exist_are_refused_with_those_that_do() -> None:
     assert "'dagger'; those that exist are: flat-bc, flat-dagger" in refused("train", "dagger")
-    assert re.search(r"'chess'; installed are: .*corridor.*maze", refused("train", "h-bc", "--domain", "chess"))
+    assert re.search(
+        r"'chess'; the installed domains are: .*corridor.*maze", refused("train", "h-bc", "--domain", "chess")
+    )
     assert re.search(r"'best'; those that exist are: .*paper", refused("train", "h-bc", "--preset", "best"))
-    assert "random, corners, or a file.npz" in refused("train", "h-bc", "--instances", "circles")
-    assert "those that exist are: random" in refused("train", "h-bc", "--domain", "corridor", "--instances", "all")
+    assert "random, corners, or an .npz file" in refused("train", "h-bc", "--instances", "circles")
+    assert "the only set is: random" in refused("train", "h-bc", "--domain", "corridor", "--instances", "all")
     kinds = refused("oracle", "--kinds", "inspect_full,label_all", "--token", "t")
     assert "'label_all'" in kinds
     assert all(kind in kinds for kind in ("hier_demo", "inspect_full", "label_hi", "inspect_lo", "label_lo"))

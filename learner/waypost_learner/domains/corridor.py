@@ -1,8 +1,9 @@
-"""A corridor with doors: the smallest complete domain, a template for your own, and the tests' domain.
+"""Defines the corridor: the smallest complete domain, a template for new domains, and the domain of many tests.
 
-Thirteen cells in a row, doors at cells 0, 4, 8 and 12. The agent starts somewhere and must reach a target cell.
-Subgoals: the next door to the west, the next door to the east, the target (valid between the doors around it). Actions:
-west, east. The page has no renderer for it: it shows the pictures that `frame` draws.
+It has thirteen cells in a row, with doors at cells 0, 4, 8 and 12. The agent starts in one cell and must reach a target
+cell. The subgoals are the next door to the west, the next door to the east, and the target; the target is valid only
+between the two doors around it. The actions are west and east. The web app has no renderer for the corridor, so it
+shows the pictures of `frame`.
 """
 
 from collections.abc import Sequence
@@ -18,23 +19,27 @@ from waypost.domain import Horizons, InstanceSets, Symmetry
 from waypost.trajectory import Outcome
 
 CELLS = 13
-DOORS = 4  # cells from door to door
+DOOR_SPACING = 4  # cells from one door to the next
 MAX_STEPS = 30
 WEST, EAST, TARGET = 0, 1, 2
-PIXELS = 40  # of a cell, on a side
+PIXELS = 40  # pixels per side of a cell
 FLOOR, DOOR, GOAL, AGENT = (238, 235, 227), (176, 168, 150), (160, 106, 0), (11, 92, 150)
 
 
 @dataclass(frozen=True)
 class Corridor:
-    """One instance."""
+    """One instance: the agent's first cell and the target cell."""
 
     start: int
     target: int
 
 
 class CorridorEnv(gymnasium.Env[NDArray[np.float32], np.int64]):
-    """Observation: float32[26], one-hot agent and one-hot target. Reward 1 on the target; walls only stop the agent."""
+    """The corridor as a gymnasium environment.
+
+    The observation is float32[26]: the agent's cell and the target's cell, both one-hot. The reward is 1 on the target,
+    which ends the episode, and 0 elsewhere. At the ends of the corridor the agent stays where it is.
+    """
 
     metadata = {"render_modes": []}  # noqa: RUF012 (gymnasium's own form)
 
@@ -47,7 +52,7 @@ class CorridorEnv(gymnasium.Env[NDArray[np.float32], np.int64]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Start an instance: the one in `options`, else a random one."""
+        """Start `options["instance"]`, or a random instance."""
         super().reset(seed=seed)
         start, target = self.np_random.choice(CELLS, 2, replace=False)
         self.corridor = (options or {}).get("instance") or Corridor(int(start), int(target))
@@ -55,16 +60,16 @@ class CorridorEnv(gymnasium.Env[NDArray[np.float32], np.int64]):
         return self._observe(), {}
 
     def step(self, action: np.int64) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
-        """Move one cell."""
+        """Move the agent one cell, and truncate the episode after `MAX_STEPS` steps."""
         self.cell = moved(self.cell, int(action))
         self.steps += 1
         arrived = self.cell == self.corridor.target
         return self._observe(), float(arrived), arrived, not arrived and self.steps >= MAX_STEPS, {}
 
     def _observe(self) -> NDArray[np.float32]:
-        pixels = np.zeros(2 * CELLS, np.float32)
-        pixels[self.cell] = pixels[CELLS + self.corridor.target] = 1
-        return pixels
+        observation = np.zeros(2 * CELLS, np.float32)
+        observation[self.cell] = observation[CELLS + self.corridor.target] = 1
+        return observation
 
 
 def moved(cell: int, action: int) -> int:
@@ -73,27 +78,27 @@ def moved(cell: int, action: int) -> int:
 
 
 class CorridorOracle:
-    """Good subgoals, good actions and terminations; a state's JSON view is the cell."""
+    """The corridor's expert. The JSON view of a state is the agent's cell."""
 
     def good_subgoals(self, instance: Any, state: Any) -> Sequence[int]:
-        """Go for the target once no door lies between."""
+        """Return the target if no door is between it and the agent, else the door toward it."""
         target = instance["target"]
-        low, high = _stretch(state, target)
+        low, high = _doors_around(state, target)
         if low <= target <= high:
             return [TARGET]
         return [EAST if target > state else WEST]
 
     def good_actions(self, instance: Any, origin: Any, state: Any, subgoal: int) -> Sequence[int]:
-        """Walk toward the aim."""
-        aim = _aim(instance, origin, subgoal)
-        return [] if state == aim else [EAST if aim > state else WEST]
+        """Return the step toward the subgoal's end cell; nothing if the agent is on it."""
+        end = _end_cell(instance, origin, subgoal)
+        return [] if state == end else [EAST if end > state else WEST]
 
     def reached(self, instance: Any, origin: Any, state: Any, subgoal: int) -> bool:
-        """Return whether the agent stands on the aim."""
-        return bool(state == _aim(instance, origin, subgoal))
+        """Return whether the agent is on the subgoal's end cell."""
+        return bool(state == _end_cell(instance, origin, subgoal))
 
     def succeeded(self, instance: Any, state: Any) -> bool:
-        """Return whether the agent stands on the target."""
+        """Return whether the agent is on the target."""
         return bool(state == instance["target"])
 
     def successor(self, instance: Any, state: Any, action: int) -> Any:
@@ -102,22 +107,23 @@ class CorridorOracle:
         return moved(state, action)
 
 
-def _stretch(cell: int, target: int) -> tuple[int, int]:
-    """Return the doors around a cell; from a door, those on the side of the target."""
+def _doors_around(cell: int, target: int) -> tuple[int, int]:
+    """Return the two doors around a cell; for a door itself, this door and the next one toward the target."""
     west = cell - 1 if target < cell else cell
-    low = max(west, 0) // DOORS * DOORS
-    return low, low + DOORS
+    low = max(west, 0) // DOOR_SPACING * DOOR_SPACING
+    return low, low + DOOR_SPACING
 
 
-def _aim(instance: Any, origin: int, subgoal: int) -> int:
+def _end_cell(instance: Any, origin: int, subgoal: int) -> int:
+    """Return the cell where a subgoal chosen in `origin` ends."""
     if subgoal == TARGET:
         return int(instance["target"])
-    next_east, next_west = (origin // DOORS + 1) * DOORS, (origin - 1) // DOORS * DOORS
+    next_east, next_west = (origin // DOOR_SPACING + 1) * DOOR_SPACING, (origin - 1) // DOOR_SPACING * DOOR_SPACING
     return min(next_east, CELLS - 1) if subgoal == EAST else max(next_west, 0)
 
 
 class CorridorDomain:
-    """Everything Waypost needs to know of the corridor."""
+    """The corridor as a `waypost.domain.Domain`."""
 
     name = "corridor"
     subgoals = ("west", "east", "target")
@@ -127,7 +133,7 @@ class CorridorDomain:
     observation_shape = (2 * CELLS,)
     symmetries = (
         Symmetry(
-            # Mirror both one-hot halves: west and east change places.
+            # Mirror both one-hot halves, so that west and east change places.
             observe=lambda observation: np.concatenate([observation[CELLS - 1 :: -1], observation[: CELLS - 1 : -1]]),
             subgoals=(EAST, WEST, TARGET),
             actions=(EAST, WEST),
@@ -138,13 +144,17 @@ class CorridorDomain:
         self.oracle = CorridorOracle()
 
     def make_env(self) -> CorridorEnv:
-        """Return a new corridor."""
+        """Return a new environment."""
         return CorridorEnv()
 
     def instances(self, name: str) -> InstanceSets:
-        """Return all pairs of start and target, every third one kept for the test; the one set is `random`."""
+        """Return all pairs of start and target, a random third of them for testing. The only set is `random`.
+
+        Raises:
+            ValueError: `name` is not "random".
+        """
         if name != "random":
-            raise ValueError(f"the corridor has no instances {name!r}; those that exist are: random")
+            raise ValueError(f"the corridor has no instances {name!r}; the only set is: random")
         pairs = [Corridor(s, t) for s in range(CELLS) for t in range(CELLS) if s != t]
         order = np.random.default_rng(0).permutation(len(pairs))
         test = {int(i) for i in order[: len(pairs) // 3]}
@@ -154,7 +164,7 @@ class CorridorDomain:
         )
 
     def instance_view(self, instance: Corridor) -> Any:
-        """Return start and target."""
+        """Return the number of cells, the start and the target."""
         return {"cells": CELLS, "start": instance.start, "target": instance.target}
 
     def state_view(self, env: Any) -> Any:
@@ -162,10 +172,10 @@ class CorridorDomain:
         return env.unwrapped.cell
 
     def frame(self, env: Any) -> NDArray[np.uint8]:
-        """Return a picture: the cells in a row, doors darker, the target as a frame, the agent as a square in it."""
+        """Return a picture, uint8[40, 520, 3]: doors are darker cells, the target is a frame, the agent is a square."""
         cells = np.full((PIXELS, CELLS, PIXELS, 3), FLOOR, np.uint8)
-        cells[:, ::DOORS] = DOOR
-        cells[:, :, 0] = cells[0] = cells[-1] = 255  # the lines between
+        cells[:, ::DOOR_SPACING] = DOOR
+        cells[:, :, 0] = cells[0] = cells[-1] = 255  # the lines between the cells
         cells[4:-4, env.unwrapped.corridor.target, 4:-4] = GOAL
         cells[9:-9, env.unwrapped.corridor.target, 9:-9] = FLOOR
         cells[13:-13, env.unwrapped.cell, 13:-13] = AGENT
@@ -176,5 +186,5 @@ class CorridorDomain:
         return bool(env.unwrapped.cell == env.unwrapped.corridor.target)
 
     def outcome(self, instance: Corridor, origin: Any, state: Any, subgoal: int) -> Outcome | None:
-        """Return "reached" on the aim; nothing can go wrong in a corridor."""
-        return "reached" if state == _aim(self.instance_view(instance), origin, subgoal) else None
+        """Return "reached" on the subgoal's end cell, else None. In the corridor a subgoal cannot fail."""
+        return "reached" if state == _end_cell(self.instance_view(instance), origin, subgoal) else None

@@ -1,4 +1,7 @@
-"""The commands of the experiments. Quick to import: the packages they need are imported when they run."""
+"""The commands `waypost figures`, `waypost sweep` and `waypost theory`.
+
+The module imports quickly: each command imports the packages that it needs when it runs.
+"""
 
 import json
 import os
@@ -28,29 +31,31 @@ if TYPE_CHECKING:
 
 app = typer.Typer()
 
-SeedsOption = Annotated[str, typer.Option(help="The seeds, comma-separated.")]
+SeedsOption = Annotated[str, typer.Option(help="The seeds, separated by commas.")]
 
 
 @app.command()
 def figures(
-    store: Annotated[Path | None, typer.Option("--store", help="The SQLite file the runs are in.")] = None,
+    store: Annotated[Path | None, typer.Option("--store", help="The SQLite file that contains the runs.")] = None,
     server: ServerOption = None,
     token: TokenOption = "",
     archives: Annotated[
-        list[Path] | None, typer.Option("--from", help="A folder with runs.csv.gz; may be given more than once.")
+        list[Path] | None, typer.Option("--from", help="A folder that contains runs.csv.gz; can be repeated.")
     ] = None,
-    figure: Annotated[str, typer.Option(help="maze for all, or one group of it.")] = "maze",
+    figure: Annotated[str, typer.Option(help="A figure (maze or lean), or one group of a figure.")] = "maze",
     seeds: SeedsOption = "0,1,2,3,4",
     out: Annotated[Path, typer.Option(help="The folder for figures and tables.")] = Path("docs/results"),
-    report: Annotated[Path | None, typer.Option(help="A Markdown document to write, with all of them.")] = None,
-    partial: Annotated[bool, typer.Option("--partial", help="Draw what is there, though runs are missing.")] = False,
+    report: Annotated[Path | None, typer.Option(help="Write a Markdown document with all figures and tables.")] = None,
+    partial: Annotated[
+        bool, typer.Option("--partial", help="Draw the existing runs even if some are missing.")
+    ] = False,
     as_json: JsonOption = False,
 ) -> None:
-    """Draw the paper's figures from the runs of a store, beside the published numbers, and write the tables."""
+    """Draw figures and write tables from stored runs, and compare them with the published numbers."""
     if store is not None and server is not None:
-        refuse("The server keeps the store: give either --server or --store.")
+        refuse("A server has its own store: give either --server or --store.")
     if store is None and server is None and not archives:
-        refuse("Say where the runs are: --store FILE, --server URL, or --from FOLDER with runs.csv.gz in it.")
+        refuse("Give the source of the runs: --store FILE, --server URL, or --from FOLDER with a runs.csv.gz.")
     with learner_errors():
         from waypost_learner.experiments.figures import archive, make
         from waypost_learner.experiments.figures import store as stores
@@ -78,28 +83,33 @@ def figures(
 
 @app.command()
 def sweep(
-    figure: Annotated[str, typer.Option(help="maze for all, or one group of it.")] = "maze",
+    figure: Annotated[str, typer.Option(help="A figure (maze or lean), or one group of a figure.")] = "maze",
     seeds: SeedsOption = "0,1,2,3,4",
     store: Annotated[
-        Path | None, typer.Option("--store", help="An SQLite file; it is created if it is not there.")
+        Path | None, typer.Option("--store", help="An SQLite file; it is created if it does not exist.")
     ] = None,
     server: ServerOption = None,
     token: TokenOption = "",
     archives: Annotated[
-        list[Path] | None, typer.Option("--from", help="A folder with runs.csv.gz: what is in it is not made again.")
+        list[Path] | None,
+        typer.Option("--from", help="A folder that contains runs.csv.gz; complete runs in it are not trained again."),
     ] = None,
-    jobs: Annotated[int | None, typer.Option(min=1, help="Runs at once; as many as there are cores if absent.")] = None,
-    ray: Annotated[str | None, typer.Option(help="Run on a Ray cluster: its address, or auto.")] = None,
-    episodes: Annotated[int | None, typer.Option(min=1, help="Shorter or longer runs than the figure's.")] = None,
-    preset: Annotated[str | None, typer.Option(help="Other values of learning than the figure's.")] = None,
-    checkpoints: Annotated[Path | None, typer.Option(help="Folder of checkpoints; beside the store.")] = None,
+    jobs: Annotated[
+        int | None, typer.Option(min=1, help="How many runs train at once. Default: the number of processor cores.")
+    ] = None,
+    ray: Annotated[str | None, typer.Option(help="The address of a Ray cluster to run on, or auto.")] = None,
+    episodes: Annotated[int | None, typer.Option(min=1, help="Episodes per run, instead of the figure's.")] = None,
+    preset: Annotated[str | None, typer.Option(help="The preset of all runs, instead of the figure's.")] = None,
+    checkpoints: Annotated[
+        Path | None, typer.Option(help="The folder for checkpoints. Default: beside the store.")
+    ] = None,
     patience: PatienceOption = 300.0,
     as_json: JsonOption = False,
 ) -> None:
-    """Make the runs of a figure, those that are not there yet; interrupted, the same command goes on."""
+    """Train the runs of a figure that are not finished yet. After an interruption, the same command continues."""
     if store is not None and server is not None:
-        refuse("The server keeps the store: give either --server or --store.")
-    with learner_errors("Interrupted; the same command goes on, and makes nothing twice."):
+        refuse("A server has its own store: give either --server or --store.")
+    with learner_errors("Interrupted. The same command continues and trains no run twice."):
         from waypost_learner.experiments import plan
         from waypost_learner.experiments import sweep as sweeping
         from waypost_learner.experiments.figures import archive
@@ -107,7 +117,7 @@ def sweep(
 
         runs = plan.runs_of(plan.find_figure(figure), parse_seeds(seeds))
         runs = [replace(run, episodes=episodes or run.episodes, preset=preset or run.preset) for run in runs]
-        set_up(runs[0], threads=1)  # says what is wrong before there is a store
+        set_up(runs[0], threads=1)  # reports wrong options before a store is created
         there = {config for folder in archives or [] for config, run in archive.read(folder).items() if run.complete}
         todo = [run for run in runs if run not in there]
         place = sweeping.Place(
@@ -121,7 +131,7 @@ def sweep(
             troubles = sweeping.sweep(todo, place, jobs or os.cpu_count() or 1, ray, progress.show)
     for name, trouble in troubles.items():
         typer.echo(f"{name}: {trouble}", err=True)
-    done = f"{len(there & set(runs)) + len(todo) - len(troubles)} of {len(runs)} runs are there."
+    done = f"{len(there & set(runs)) + len(todo) - len(troubles)} of {len(runs)} runs are finished."
     typer.echo(json.dumps({"runs": len(runs), "failed": troubles}) if as_json else done)
     if troubles:
         raise typer.Exit(1)
@@ -129,12 +139,12 @@ def sweep(
 
 @app.command()
 def theory(
-    seeds: Annotated[int, typer.Option(min=1, help="How many seeds in each cell of the grid.")] = 5,
-    rounds: Annotated[int, typer.Option(min=1, help="T, the episodes of each learner.")] = 100,
+    seeds: Annotated[int, typer.Option(min=1, help="The number of seeds in each cell of the grid.")] = 5,
+    rounds: Annotated[int, typer.Option(min=1, help="T, the number of episodes of each learner.")] = 100,
     out: Annotated[Path | None, typer.Option(help="A folder for theory.csv, theory.svg and theory.png.")] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Measure hg-DAgger and flat DAgger with halving learners against Theorems 1 and 2."""
+    """Compare the cost of hg-DAgger and flat DAgger, simulated with halving learners, with Theorems 1 and 2."""
     if out is not None:
         try:
             out.mkdir(parents=True, exist_ok=True)
@@ -158,11 +168,11 @@ def theory(
             typer.echo("\n".join(report.table(rows, seeds, rounds)))
 
 
-# --- what the commands use
+# --- helpers of the commands
 
 
 class SweepProgress:
-    """A bar over the episodes of all runs, with the time left; nothing where there is no terminal."""
+    """A progress bar over the episodes of all runs, with the remaining time. Without a terminal it shows nothing."""
 
     def __init__(self, runs: int, episodes: int) -> None:
         self._runs, self._episodes, self._bar = runs, episodes, progress_bar()
@@ -176,7 +186,10 @@ class SweepProgress:
         self._bar.stop()
 
     def show(self, progress: "Progress") -> None:
-        """Show how far the runs are. Time counts from where the sweep began, not from what was there before."""
+        """Show the number of finished runs and of episodes.
+
+        The first call starts the clock: the remaining time is estimated only from the episodes of this sweep.
+        """
         if self._task is None:
             self._task = self._bar.add_task("", total=self._episodes, completed=progress.episodes)
         text = f"{progress.finished} of {self._runs} runs, episodes"
@@ -184,17 +197,18 @@ class SweepProgress:
 
 
 def parse_seeds(text: str) -> tuple[int, ...]:
-    """Return the seeds that a text names.
+    """Return the seeds in a text such as "0,1,2".
 
     Raises:
-        ValueError: it is no list of numbers that differ.
+        ValueError: the text is not a list of different numbers.
     """
     words = [word.strip() for word in text.split(",")]
     if not all(word.isdecimal() for word in words) or len(set(map(int, words))) < len(words):
-        raise ValueError(f"--seeds takes numbers that differ, such as 0,1,2; {text!r} is something else")
+        raise ValueError(f"--seeds must be different numbers, such as 0,1,2; {text!r} is not")
     return tuple(map(int, words))
 
 
 def _refuse_missing(runs: list[str], command: str) -> NoReturn:
     listed = "\n".join(f"  {run}" for run in runs)
-    refuse(f"These runs are missing:\n{listed}\nThis makes them:\n  {command}\nWith --partial, what is there is drawn.")
+    make, draw = f"This command trains them:\n  {command}", "Use --partial to draw without them."
+    refuse(f"These runs are missing:\n{listed}\n{make}\n{draw}")

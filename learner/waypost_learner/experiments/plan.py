@@ -1,6 +1,6 @@
-"""Which runs make which figure: `waypost sweep` makes them, `waypost figures` draws them.
+"""Defines which runs each figure needs. `waypost sweep` trains them and `waypost figures` draws them.
 
-A plan is a list of configurations and nothing else, so that who draws figures needs no algorithm.
+The plan contains only configurations, so drawing figures does not import any algorithm.
 """
 
 from collections.abc import Sequence
@@ -14,31 +14,33 @@ SEEDS = (0, 1, 2, 3, 4)
 
 @dataclass(frozen=True)
 class Series:
-    """The runs of one curve, over seeds."""
+    """The runs of one curve: one configuration with several seeds."""
 
-    config: TrainConfig  # of the first seed
+    config: TrainConfig  # with any seed: `runs` replaces it
     label: str
-    beside: bool = False  # drawn so that the others are held against it
-    most: int | None = None  # of the seeds that are asked for, so many are enough
+    beside: bool = False  # whether it is the reference of its group, drawn in black
+    most: int | None = None  # use at most this many of the requested seeds
 
     def runs(self, seeds: Sequence[int]) -> list[TrainConfig]:
-        """Return a run per seed."""
+        """Return one configuration per seed."""
         return [replace(self.config, seed=seed) for seed in seeds[: self.most]]
 
 
 @dataclass(frozen=True)
 class Group:
-    """Series that are compared with each other.
+    """Several series that one part of the report compares.
 
     Args:
-        name: what `--figure` calls it.
-        title: the mazes, and what is particular about the runs.
-        counting: how episodes and costs are counted, for whoever reads a figure.
-        figures: what is drawn of it, by the names in `learner/experiments/figures/draw.py`.
-        series: its curves.
-        labels_only: whether costs leave inspections out, as the authors' do; then the published ones are comparable.
-        hybrid: whether acting is learned by reinforcement, so that success is held against LO samples, not cost.
-        lean: whether it is about the least cost: of hundreds of units, in hundreds of episodes.
+        name: the name for `--figure`.
+        title: the heading in the report: the mazes and the compared runs.
+        counting: how episodes and costs are counted; shown on every figure.
+        figures: the figures to draw, by their names in `FIGURES` of `figures/draw.py`.
+        series: the curves.
+        labels_only: whether costs exclude inspections. The authors' costs do, so only such groups are compared with
+            the published numbers.
+        hybrid: whether actions are learned by reinforcement. Success is then shown over LO samples instead of cost.
+        lean: whether the group compares variants of the preset `lean`. Its tables use fewer episodes, and its cost
+            axis is logarithmic.
     """
 
     name: str
@@ -59,7 +61,7 @@ def _imitation(instances: str, redraw: bool, *algorithms: str) -> tuple[Series, 
         "flat-bc": "flat BC",
         "naive-h-dagger": "naive h-DAgger",
     }
-    passive = {"h-bc", "flat-bc"}  # nothing is rolled out, so nothing is drawn again
+    passive = {"h-bc", "flat-bc"}  # they have no training rollouts, so `redraw` does not apply
     return tuple(
         Series(TrainConfig(a, instances=instances, preset="paper", redraw=redraw and a not in passive), labels[a])
         for a in algorithms
@@ -73,7 +75,7 @@ def _hybrid(label: str, algorithm: str, head_start: float | None = None) -> Seri
 
 _FOUR = ("hg-dagger", "h-bc", "flat-dagger", "flat-bc")
 
-_AS_THE_AUTHORS = "Episodes: demonstrations, then one per failed rollout; costs: labels alone (as the authors count)."
+_AS_THE_AUTHORS = "Episodes: demonstrations and failed rollouts only. Costs: labels only. Both as the authors count."
 _HONEST = "Episodes: every rollout. Costs: every label and every inspection."
 _SUCCESS = ("success-by-episode", "success-by-cost", "success-by-lo-cost")
 
@@ -88,7 +90,7 @@ _MAZE = (
     ),
     Group(
         "naive",
-        "corner mazes, guided labels against labels everywhere",
+        "corner mazes, hg-DAgger compared with labeling everything",
         _AS_THE_AUTHORS,
         ("lo-cost-by-episode", "success-by-lo-cost"),
         _imitation("corners", True, "hg-dagger", "naive-h-dagger"),
@@ -96,21 +98,21 @@ _MAZE = (
     ),
     Group(
         "corners",
-        "corner mazes, every rollout an episode",
+        "corner mazes, every rollout counted as an episode",
         _HONEST,
         (*_SUCCESS, "cost-by-kind"),
         _imitation("corners", False, *_FOUR),
     ),
     Group(
         "random",
-        "random mazes, every rollout an episode",
+        "random mazes, every rollout counted as an episode",
         _HONEST,
         (*_SUCCESS, "cost-by-kind"),
         _imitation("random", False, *_FOUR),
     ),
     Group(
         "hybrid",
-        "corner mazes, learning to act by reinforcement",
+        "corner mazes, actions learned by reinforcement",
         "Episodes: every rollout. LO samples: the learner's own steps in training rollouts.",
         ("progress-by-sample", "success-by-sample"),
         (
@@ -146,19 +148,19 @@ def _paper(instances: str) -> Series:
     return Series(TrainConfig("hg-dagger", instances=instances, preset="paper"), "hg-DAgger, paper", True, most=1)
 
 
-_AT_ONCE = "train_hi.idle=0 train_lo.idle=0"  # enough, where every episode brings labels
+_AT_ONCE = "train_hi.idle=0 train_lo.idle=0"  # no continued training: nearly every episode of these brings labels
 _SAMPLED = "monitoring.share=0.1 monitoring.rate=0.9"
-_FAILING = 100  # episodes, each labeled whole, cost more than 300 of what succeeds
+_FAILING = 100  # episodes: most of them fail and are labeled completely, so they cost more than 300 successful ones
 
 _LEAN = (
     Group(
         "lean-random",
-        "random mazes, the preset lean beside the paper's",
+        "random mazes, preset lean compared with preset paper",
         _HONEST,
         ("success-by-log-cost", "success-by-episode", "cost-by-kind"),
         (
             _lean("hg-DAgger"),
-            _lean("hg-DAgger, nothing more assumed", values=_FEWER),
+            _lean("hg-DAgger, fewer assumptions", values=_FEWER),
             _lean("naive h-DAgger", "naive-h-dagger", values=_AT_ONCE, most=3),
             _lean("h-BC", "h-bc", values=_AT_ONCE, most=3),
             _lean("flat DAgger", "flat-dagger", most=3),
@@ -169,7 +171,7 @@ _LEAN = (
     ),
     Group(
         "lean-corners",
-        "corner mazes, the preset lean beside the paper's",
+        "corner mazes, preset lean compared with preset paper",
         _HONEST,
         ("success-by-log-cost",),
         (
@@ -192,49 +194,49 @@ _LEAN = (
             _part("without planning, 100 episodes", "planning=null", _FAILING),
             _part("without views and planning, 100 episodes", "views=false planning=null", _FAILING),
             _lean("without averaging", values="train_hi.averaging=null train_lo.averaging=null"),
-            _part("without training on", _AT_ONCE),
+            _part("without continued training", _AT_ONCE),
             _part("20 demonstrations", "warm_start=20"),
         ),
         lean=True,
     ),
     Group(
         "lean-asking",
-        "random mazes, lean asking less than Algorithm 2 does",
+        "random mazes, preset lean with options that ask less than Algorithm 2",
         _HONEST,
         ("success-by-log-cost",),
         (
             _lean("Algorithm 2"),
             _lean("sampled monitoring", values=_SAMPLED),
             _lean("single states", "hg-stagger"),
-            _lean("both", "hg-stagger", values=_SAMPLED),
+            _lean("both options", "hg-stagger", values=_SAMPLED),
         ),
         lean=True,
     ),
 )
 
 GROUPS = {group.name: group for group in (*_MAZE, *_LEAN)}
-"""What can be run and drawn on its own."""
+"""Every group by its name."""
 
 FIGURES = {
     "maze": tuple(group.name for group in _MAZE),
     "lean": tuple(group.name for group in _LEAN),
     **{name: (name,) for name in GROUPS},
 }
-"""What `--figure` can name: the maze section of the paper, the least expert cost, or one group of them."""
+"""The groups of every value of `--figure`: `maze` (the paper's maze section), `lean`, or the name of one group."""
 
 
 def find_figure(name: str) -> list[Group]:
     """Return the groups of a figure.
 
     Raises:
-        ValueError: there is none of that name; the message lists those that exist.
+        ValueError: no figure has this name; the message lists the names.
     """
     if name not in FIGURES:
-        raise ValueError(f"there is no figure {name!r}; those that exist are: {', '.join(FIGURES)}")
+        raise ValueError(f"there is no figure {name!r}; the figures are: {', '.join(FIGURES)}")
     return [GROUPS[group] for group in FIGURES[name]]
 
 
 def runs_of(groups: Sequence[Group], seeds: Sequence[int]) -> list[TrainConfig]:
-    """Return every run of the groups once, the first seed of all series first."""
+    """Return every run of the groups once, ordered by seed: first the runs of all series with the first seed."""
     runs = [each.runs(seeds) for group in groups for each in group.series]
     return list(dict.fromkeys(run for nth in zip_longest(*runs) for run in nth if run is not None))

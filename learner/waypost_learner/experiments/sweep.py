@@ -1,7 +1,7 @@
-"""`waypost sweep`: many runs side by side, on this machine's cores or on a Ray cluster.
+"""Trains many runs in parallel for `waypost sweep`, on this machine's cores or on a Ray cluster.
 
-A sweep keeps no books of its own: the store says which runs are finished, and each run goes on from its checkpoint. So
-an interrupted sweep is the same command again.
+A sweep has no state of its own: the store knows which runs are finished, and each other run continues from its
+checkpoint. So the same command continues an interrupted sweep.
 """
 
 import fcntl
@@ -26,16 +26,16 @@ POLL_SECONDS = 2.0
 
 @dataclass(frozen=True)
 class Place:
-    """Where runs are kept: a store of this machine, or a server."""
+    """Where a sweep stores its runs: an SQLite file on this machine (`store`), or a server (`server`, `token`)."""
 
     checkpoints: Path
     store: Path | None = None
     server: str = ""
     token: str = ""
-    patience: float = 300.0
+    patience: float = 300.0  # seconds to keep trying when the server does not answer
 
     def connect(self) -> AbstractContextManager[Connection]:
-        """Connect; an oracle in the same process answers."""
+        """Return a connection to the store or the server; the domain's oracle answers in this process."""
         if self.store is not None:
             return embedded(self.store)
         return connected(self.server, self.token, answers_here=True, patience=self.patience)
@@ -43,10 +43,10 @@ class Place:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a sweep is."""
+    """The progress of a sweep."""
 
-    finished: int  # runs
-    episodes: int  # of all runs
+    finished: int  # number of finished runs
+    episodes: int  # reported episodes of all runs
 
 
 def sweep(
@@ -57,21 +57,21 @@ def sweep(
     on_progress: Callable[[Progress], None] = lambda _: None,
     backend: str = "loky",
 ) -> dict[str, str]:
-    """Make the runs that are not finished yet; return what went wrong, by the run's name.
+    """Train the runs that are not finished yet, and return the error message of each failed run by the run's name.
 
     Args:
-        runs: what to make.
-        place: where to keep it.
-        jobs: how many runs go on at once.
-        ray: the address of a Ray cluster ("auto" for the one of this machine); None for processes of this machine.
+        runs: the runs to train.
+        place: where to store them.
+        jobs: how many runs train at once.
+        ray: the address of a Ray cluster ("auto" for this machine's cluster); None for processes on this machine.
         on_progress: called every few seconds.
-        backend: joblib's, on this machine: "loky" makes a process for each job, "sequential" none.
+        backend: joblib's backend without Ray: "loky" starts one process per job, "sequential" starts none.
 
     Raises:
-        ValueError: another sweep is at work on the same store, or a cluster cannot reach the store.
+        ValueError: another sweep uses the same checkpoint folder, or a Ray cluster was given with a local store.
     """
     if ray is not None and place.store is not None:
-        raise ValueError("a cluster's machines cannot write a file of this one: give --server instead of --store")
+        raise ValueError("the machines of a cluster cannot write to a local file: give --server instead of --store")
     with _alone(place), place.connect() as connection, _reporting(runs, connection, on_progress):
         done = finished(runs, connection)
         todo = [config for config in runs if config not in done]
@@ -83,44 +83,44 @@ def sweep(
 
 
 def finished(runs: Sequence[TrainConfig], connection: Connection) -> set[TrainConfig]:
-    """Return which of the runs are finished."""
+    """Return the finished runs among `runs`."""
     done = [run.config for run in connection.learner.runs() if run.state == "finished"]
     return {config for config in runs if config_values(config) in done}
 
 
 def name_of(config: TrainConfig) -> str:
-    """Return what a run is called where it is listed."""
+    """Return a readable name of a run for lists of errors."""
     rest = {"redraw": "redrawn", "head_start": "head start"}
     extras = [word for field, word in rest.items() if getattr(config, field)]
     return ", ".join([f"{config.algorithm} {config.instances} seed {config.seed}", *extras])
 
 
 def _train(config: TrainConfig, place: Place) -> str | None:
-    """Make one run, in a process of its own; return what went wrong."""
+    """Train one run in its own process, and return an error message or None."""
     parent = os.getppid()
 
     def stop_with_the_sweep(_result: wire.EpisodeResult, _units: float) -> None:
         if os.getppid() != parent:
-            os._exit(1)  # the sweep was killed: what it starts next must find its runs free
+            os._exit(1)  # the sweep was killed: stop, so that the next sweep can continue this run
 
     options = RunOptions(resume=True, checkpoints=place.checkpoints, threads=1)
     try:
         with place.connect() as connection:
             train(config, connection, options, on_episode=stop_with_the_sweep)
     except Exception as error:
-        return f"{type(error).__name__}: {error}"  # the other runs go on
+        return f"{type(error).__name__}: {error}"  # the other runs continue
     return None
 
 
 @contextmanager
 def _alone(place: Place) -> Iterator[None]:
-    """Keep a second sweep off the same checkpoints; the lock ends with its process, however that ends."""
+    """Lock the checkpoint folder, so that no second sweep uses it. The lock ends with the process, even if killed."""
     place.checkpoints.mkdir(parents=True, exist_ok=True)
     with (place.checkpoints / "sweep.lock").open("w") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise ValueError(f"another sweep is at work in {place.checkpoints}: wait for it, or stop it") from None
+            raise ValueError(f"another sweep is running in {place.checkpoints}: wait for it, or stop it") from None
         yield
 
 
@@ -128,7 +128,7 @@ def _alone(place: Place) -> Iterator[None]:
 def _reporting(
     runs: Sequence[TrainConfig], connection: Connection, on_progress: Callable[[Progress], None]
 ) -> Iterator[None]:
-    """Say every few seconds how far the runs are."""
+    """Call `on_progress` at the start, every few seconds, and at the end."""
     over = threading.Event()
     wanted = [config_values(config) for config in runs]
 

@@ -1,12 +1,12 @@
-"""Every message that crosses HTTP, and nothing else: pydantic and the standard library only.
+"""Defines all messages of the HTTP API, with pydantic and the standard library only.
 
-The server and the learner's client both import this package, and the page's TypeScript types are generated from it
-(through the OpenAPI document), so there is one contract. Words are the paper's: a *segment* is one (s_h, g_h, tau_h),
-a subgoal and the LO-level trajectory that carried it out (Le et al. 2018, section 3).
+The server and the client both use these classes. The TypeScript types of the web app are generated from them through
+the OpenAPI document. The terms are those of the paper: a *segment* is one (s_h, g_h, tau_h), that is, a subgoal and the
+LO-level trajectory that carried it out (Le et al. 2018, section 3).
 
-Subgoals and actions travel by name (a run declares both lists); states and instances travel as the domain's own JSON
-view, which the server stores without looking inside. Times are seconds since the epoch; costs are units (the price
-of one label, unless the run sets others).
+Messages contain subgoals and actions by name; a run declares both lists. They contain states and instances as JSON
+views of the domain, which the server stores without reading them. Times are in seconds since the Unix epoch. Costs are
+in units: one label costs one unit, unless the run sets other prices.
 """
 
 from waypost.wire.answers import *

@@ -1,4 +1,4 @@
-"""Answers: what an annotator returns."""
+"""Defines the answers that annotators send, one class for each kind of answer."""
 
 from typing import Annotated, Literal
 
@@ -18,50 +18,50 @@ __all__ = [
 
 
 class DemoSegment(Message):
-    """One segment of a demonstration; its states follow from the actions."""
+    """One segment of a demonstration. It has no states: the learner computes them from the actions."""
 
-    subgoal: Name | None = Field(description="The subgoal carried out; null in a flat demonstration.")
-    actions: list[Name] = Field(min_length=1, max_length=10_000)
+    subgoal: Name | None = Field(description="The subgoal of the segment; null in a flat demonstration.")
+    actions: list[Name] = Field(min_length=1, max_length=10_000, description="a_1 .. a_H.")
 
 
 class HierDemoAnswer(Message):
-    """The expert's own trajectory: hierarchical, each segment ending where its subgoal is reached; or one flat one."""
+    """The expert's own trajectory: segments that each end where the subgoal is reached, or one flat segment."""
 
     kind: Literal["hier_demo"]
-    segments: list[DemoSegment] = Field(min_length=1, max_length=10_000)
+    segments: list[DemoSegment] = Field(min_length=1, max_length=10_000, description="The segments in order.")
 
 
 class InspectAnswer(Message):
-    """Pass or Fail, for Inspect_FULL and Inspect_LO."""
+    """Pass or Fail, the answer to Inspect_FULL and Inspect_LO."""
 
     kind: Literal["inspect_full", "inspect_lo"]
-    verdict: Verdict
+    verdict: Verdict = Field(description="Whether the task (the subgoal) was accomplished.")
 
 
 class LabelHiAnswer(Message):
     """g*_1 .. g*_n: a good subgoal for each segment of the query."""
 
     kind: Literal["label_hi"]
-    subgoals: list[Name] = Field(max_length=10_000)
+    subgoals: list[Name] = Field(max_length=10_000, description="One good subgoal per segment.")
 
 
 class LabelLoAnswer(Message):
     """a*_1 .. a*_H and omega*_1 .. omega*_{H+1} of one segment with H actions.
 
-    Labels count up to the first true termination. An action may be null only there and after it: the segment should
-    have ended, so no action toward the subgoal is good.
+    The learner uses the labels up to the first true termination. From this state on, an action may be null, because no
+    action toward the subgoal is good after the subgoal is reached.
     """
 
     kind: Literal["label_lo"]
-    actions: list[Name | None] = Field(max_length=10_000)
-    terminations: list[bool] = Field(max_length=10_001)
+    actions: list[Name | None] = Field(max_length=10_000, description="A good action for each state but the last.")
+    terminations: list[bool] = Field(max_length=10_001, description="For each state, whether the segment should end.")
 
 
 class LabelFullAnswer(Message):
-    """a*_1 .. a*_H over the joined segments."""
+    """a*_1 .. a*_H: a good action for each state of the full trajectory."""
 
     kind: Literal["label_full"]
-    actions: list[Name] = Field(max_length=100_000)
+    actions: list[Name] = Field(max_length=100_000, description="The actions of all segments, joined.")
 
 
 Answer = Annotated[

@@ -1,4 +1,4 @@
-"""Assignments: what an annotator holds, and how it is answered, kept or given back."""
+"""Defines the messages about assignments: lease a query, renew the lease, answer, release, and retract."""
 
 from typing import Annotated
 
@@ -25,118 +25,123 @@ __all__ = [
 ]
 
 
-Tab = Annotated[str, Field(pattern=r"^[\x21-\x7e]{1,64}$", description="A page's own name for itself, of its making.")]
+Tab = Annotated[str, Field(pattern=r"^[\x21-\x7e]{1,64}$", description="The name of a browser tab, chosen by the tab.")]
 
 
 class Lease(Message):
-    """What an annotator is willing to take."""
+    """A request for the next query, sent by an annotator."""
 
-    wait: float = Field(default=0, ge=0, le=60, allow_inf_nan=False, description="Wait so long for a query, seconds.")
-    kinds: list[Kind] | None = Field(default=None, description="Only these kinds; null for all.")
-    run: str | None = Field(default=None, description="Only this run; null for all.")
+    wait: float = Field(
+        default=0, ge=0, le=60, allow_inf_nan=False, description="The longest time to wait for a query, in seconds."
+    )
+    kinds: list[Kind] | None = Field(default=None, description="Only queries of these kinds; null for all kinds.")
+    run: str | None = Field(default=None, description="Only queries of the run with this id; null for all runs.")
     defer: float = Field(
         default=0,
         ge=0,
         le=3_600,
         allow_inf_nan=False,
-        description="Leave a query this many seconds to other annotators who are at work and take its kind. A bot that "
-        "helps people sets it; nobody else need.",
+        description="Skip a query in its first seconds (this many) if another working annotator takes its kind. "
+        "Only bots that help people need this.",
     )
     ahead: bool = Field(
         default=False,
-        description="To be answered after what the annotator holds already: only while enough queries are left for "
-        "everybody else at work.",
+        description="Whether the query is for later, because the annotator holds another one. It is leased only if "
+        "enough queries remain for all other working annotators.",
     )
-    tab: Tab | None = Field(default=None, description="The page that asks, so that it can give back all it holds.")
+    tab: Tab | None = Field(
+        default=None, description="The browser tab that asks; when it closes, `leave` releases its assignments."
+    )
 
 
 class Price(Message):
-    """The price of an answer: `fixed` + `per_action` x its actions + `per_segment` x its segments, in units.
+    """The price of an answer, sent by the server: `fixed` + `per_action` x actions + `per_segment` x segments.
 
-    Only the price of a demonstration depends on the answer; every other kind has a `fixed` price.
+    Only the price of a demonstration depends on the answer. All other kinds have a fixed price.
     """
 
-    fixed: float
-    per_action: float
-    per_segment: float
+    fixed: float = Field(description="The fixed part, in units.")
+    per_action: float = Field(description="The price of each action of a demonstration, in units.")
+    per_segment: float = Field(description="The price of each segment of a demonstration, in units.")
 
 
 class Assignment(Message):
-    """One query handed to one annotator under a lease. Only `token` and an unexpired lease can answer it."""
+    """One query leased to one annotator, sent by the server. To answer, send `token` before the lease expires."""
 
     id: int
-    token: str
+    token: str = Field(description="The secret that proves the lease in every call about this assignment.")
     query: Query
     run: Run
-    price: Price = Field(description="What the answer will cost.")
-    leased_at: float
-    expires_at: float
-    lease_seconds: float
+    price: Price = Field(description="The price of the answer.")
+    leased_at: float = Field(description="When the lease began, in seconds since the epoch.")
+    expires_at: float = Field(description="When the lease expires without a renewal, in seconds since the epoch.")
+    lease_seconds: float = Field(description="The length of a lease and of each renewal, in seconds.")
 
 
 class AssignmentList(Message):
-    """The caller's live assignments, oldest first: what a reloaded page goes on with."""
+    """The caller's live assignments, oldest first, sent by the server. A reloaded web app continues with them."""
 
     assignments: list[Assignment]
 
 
 class AnswerPost(Message):
-    """An answer. Sending it again (same assignment, same content) returns the same receipt and costs nothing."""
+    """An answer, sent by an annotator. Sending it again returns the same receipt and costs nothing."""
 
-    token: str = Field(max_length=200)
+    token: str = Field(max_length=200, description="The token of the assignment.")
     answer: Answer
-    next: Lease | None = Field(default=None, description="Lease the next query in the same call; null for none.")
+    next: Lease | None = Field(default=None, description="Which query to lease in the same call; null for none.")
 
 
 class Receipt(Message):
-    """The answer is on disk and charged."""
+    """The server's reply to an answer: it is stored on disk and charged."""
 
-    query: int
-    answer: int
-    units: float
-    seconds: float
-    active_seconds: float
-    next: Assignment | None
+    query: int = Field(description="The id of the query.")
+    answer: int = Field(description="The id of the answer.")
+    units: float = Field(description="The cost of the answer, in units.")
+    seconds: float = Field(description="The time from lease to answer, in seconds.")
+    active_seconds: float = Field(description="The annotator's working time without idle time, in seconds.")
+    next: Assignment | None = Field(description="The next assignment, if one was requested and is available.")
 
 
 class TokenPost(Message):
-    """Shows that the caller holds the lease."""
+    """The proof that the caller holds a lease, sent by an annotator."""
 
-    token: str = Field(max_length=200)
+    token: str = Field(max_length=200, description="The token of the assignment.")
 
 
 class Retract(TokenPost):
-    """Take an answer back."""
+    """A request to retract an answer, sent by its annotator."""
 
-    tab: Tab | None = Field(default=None, description="The page that will hold its query again.")
+    tab: Tab | None = Field(default=None, description="The browser tab that will hold the query again.")
 
 
 class Renew(TokenPost):
-    """A heartbeat."""
+    """A request to renew a lease, sent regularly by an annotator."""
 
     active: bool = Field(
-        default=False, description="The annotator did something since the last one: pressed, pointed, scrolled."
+        default=False,
+        description="Whether the annotator pressed a key, moved the pointer or scrolled since the last renewal.",
     )
 
 
 class Release(Message):
-    """Give a query back, unanswered."""
+    """A request to release an unanswered query, sent by its annotator."""
 
-    token: str = Field(max_length=200)
-    reason: Note = Field(default="", description='Why; "" when only making room for others.')
-    skip: bool = Field(default=False, description="True: do not offer it to this annotator again.")
+    token: str = Field(max_length=200, description="The token of the assignment.")
+    reason: Note = Field(default="", description="The reason, shown in the history of the query; may be empty.")
+    skip: bool = Field(default=False, description="Whether the query must not be leased to this annotator again.")
 
 
 class Leave(Message):
-    """A page is going: give back all it holds, and lease nothing more to it."""
+    """Sent by a browser tab when it closes: its assignments are released, and it gets no new leases."""
 
     tab: Tab
     keep: list[Annotated[int, Field(ge=1, le=2**63 - 1)]] = Field(
-        max_length=1_000, description="Assignments whose answers are still being sent."
+        max_length=1_000, description="The ids of assignments to keep, because their answers are still being sent."
     )
 
 
 class Renewal(Message):
-    """The lease after a heartbeat."""
+    """The server's reply to a renewal."""
 
-    expires_at: float
+    expires_at: float = Field(description="When the lease now expires, in seconds since the epoch.")

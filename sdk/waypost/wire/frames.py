@@ -1,4 +1,4 @@
-"""Frames: pictures of states, where the page has no renderer."""
+"""Defines the messages about frames: pictures of states, for domains without a renderer in the web app."""
 
 from pydantic import Field
 
@@ -12,19 +12,21 @@ __all__ = [
 
 
 class Frame(Message):
-    """A PNG and the hash that it goes by."""
+    """A picture as a PNG file, identified by its hash."""
 
     hash: FrameHash
-    png: str = Field(min_length=1, max_length=2**23, pattern=r"^[A-Za-z0-9+/]+=*$", description="The file in base64.")
+    png: str = Field(
+        min_length=1, max_length=2**23, pattern=r"^[A-Za-z0-9+/]+=*$", description="The PNG file in base64."
+    )
 
 
 class FrameUpload(Message):
-    """Frames to keep. Uploading one again changes nothing."""
+    """Frames that a learner uploads. Uploading a frame again changes nothing."""
 
     frames: list[Frame] = Field(min_length=1, max_length=1_000)
 
 
 class FrameHashes(Message):
-    """Frames by their hashes."""
+    """Hashes of frames, sent by a learner to ask which frames are missing, and by the server as the reply."""
 
     hashes: list[FrameHash] = Field(max_length=10_000)

@@ -1,4 +1,4 @@
-"""Gold queries and practice: queries whose answers are known."""
+"""Defines the messages about gold queries and practice queries: queries with known answers."""
 
 from typing import Annotated, Literal
 
@@ -29,7 +29,7 @@ __all__ = [
 
 
 class KnownVerdict(Message):
-    """What an inspection should say."""
+    """The correct verdict of an inspection."""
 
     kind: Literal["inspect_full", "inspect_lo"]
     verdict: Verdict
@@ -39,98 +39,110 @@ Choices = Annotated[list[Name], Field(min_length=1, max_length=1_000)]
 
 
 class KnownSubgoals(Message):
-    """The subgoals that are right, for each segment."""
+    """The correct subgoals of a Label_HI."""
 
     kind: Literal["label_hi"]
-    subgoals: list[Choices] = Field(max_length=10_000)
+    subgoals: list[Choices] = Field(max_length=10_000, description="For each segment, all correct subgoals.")
 
 
 class KnownSegment(Message):
-    """The actions that are right, for each state before the segment should end."""
+    """The correct actions and the correct end of a Label_LO."""
 
     kind: Literal["label_lo"]
-    actions: list[Choices] = Field(max_length=10_000)
-    end: int | None = Field(ge=0, le=10_000, description="The state it should end in, from 0; null if in none of them.")
+    actions: list[Choices] = Field(
+        max_length=10_000, description="For each state before the segment should end, all correct actions."
+    )
+    end: int | None = Field(
+        ge=0, le=10_000, description="The number of the state where the segment should end, from 0; null if in none."
+    )
 
 
 class KnownActions(Message):
-    """The actions that are right, for each state of the full trajectory."""
+    """The correct actions of a Label_FULL."""
 
     kind: Literal["label_full"]
-    actions: list[Choices] = Field(max_length=100_000)
+    actions: list[Choices] = Field(
+        max_length=100_000, description="For each state of the full trajectory, all correct actions."
+    )
 
 
 Known = Annotated[KnownVerdict | KnownSubgoals | KnownSegment | KnownActions, Field(discriminator="kind")]
 
 
 class KnownAsk(Message):
-    """A query and what is right: for each label all that is, where several choices are as good."""
+    """A query with its correct answers; a label can have several correct values."""
 
     ask: Ask
-    known: Known
+    known: Known = Field(description="The correct answers.")
 
 
 class GoldPost(Message):
-    """Queries to be gold in a run. What is gold already stays as it is."""
+    """New gold queries of a run, sent by a learner or an administrator. Existing gold queries do not change."""
 
     answered: list[int] = Field(
-        default_factory=list, max_length=1_000, description="Queries of this run; right is just what was answered."
+        default_factory=list,
+        max_length=1_000,
+        description="Ids of answered queries of this run. Each answer becomes the only correct one.",
     )
-    known: list[KnownAsk] = Field(default_factory=list, max_length=1_000)
+    known: list[KnownAsk] = Field(
+        default_factory=list, max_length=1_000, description="Queries together with their correct answers."
+    )
 
 
 class Gold(Message):
-    """A gold query, and what annotators made of it."""
+    """A gold query with its results so far, sent by the server."""
 
     id: int
     kind: Kind
-    question: str
-    known: Known
-    query: int | None = Field(description="The query it was marked from.")
-    author: str | None = Field(description="Who answered that; it is never put to them.")
-    answers: int
-    agreement: float | None = Field(description="The share of right labels over all annotators.")
-    created_at: float
+    question: str = Field(description="The query in words.")
+    known: Known = Field(description="The correct answers.")
+    query: int | None = Field(description="The id of the answered query it was made from; null if there is none.")
+    author: str | None = Field(description="The name of the user who answered that query; they never get it as gold.")
+    answers: int = Field(description="How often it was answered.")
+    agreement: float | None = Field(description="The share of correct labels in all answers, 0 to 1; null if none.")
+    created_at: float = Field(description="When it became gold, in seconds since the epoch.")
 
 
 class GoldList(Message):
-    """The gold queries of a run, newest first."""
+    """The gold queries of a run, newest first, sent by the server."""
 
     gold: list[Gold]
 
 
 class Mark(Message):
-    """One label of an answer, beside what is right there."""
+    """One label of an answer, compared with the correct labels; sent by the server."""
 
-    place: int = Field(description="Which label, from 0; of a segment's actions and its end, which state.")
-    given: str | None = Field(description='"(done)" and "(not done)" are the two labels of a segment\'s end.')
-    right: list[str] = Field(description="All that is right there.")
-    is_right: bool
+    place: int = Field(description="The number of the label, from 0; for a Label_LO, the number of the state.")
+    given: str | None = Field(
+        description='The label in the answer. "(done)" and "(not done)" are the two labels of a segment\'s end.'
+    )
+    right: list[str] = Field(description="All correct labels in this place.")
+    is_right: bool = Field(description="Whether the given label is correct.")
 
 
 class PracticeQuery(Message):
-    """A query to practice on."""
+    """A practice query, sent by the server."""
 
     id: int
     ask: Ask
 
 
 class Practice(Message):
-    """Queries whose answers are known, in the order to meet them. Practicing stores nothing and costs nothing."""
+    """The practice queries in their order, sent by the server. Practice stores nothing and costs nothing."""
 
     vocabulary: Vocabulary
     queries: list[PracticeQuery]
 
 
 class PracticeAnswer(Message):
-    """An answer given for practice."""
+    """An answer to a practice query, sent by an annotator."""
 
     answer: Answer
 
 
 class Feedback(Message):
-    """How good an answer was, label by label."""
+    """The server's reply to a practice answer: each label compared with the correct ones."""
 
     marks: list[Mark]
-    reasons: list[str] = Field(description="Why, for each label.")
-    is_right: bool = Field(description="Whether all of them are right.")
+    reasons: list[str] = Field(description="For each label, the reason why the correct labels are correct.")
+    is_right: bool = Field(description="Whether all labels are correct.")

@@ -1,4 +1,4 @@
-"""People, their tokens, sessions and numbers."""
+"""Defines the messages about users: accounts, tokens, sessions, login links and statistics of annotators."""
 
 from pydantic import Field
 
@@ -27,149 +27,169 @@ __all__ = [
 
 
 class Login(Message):
-    """A one-time code out of a login link."""
+    """The one-time code of a login link, sent by a browser."""
 
     code: str = Field(min_length=1, max_length=200)
 
 
 class Me(Message):
-    """Who is calling."""
+    """The calling user, sent by the server."""
 
     id: int
     name: str
     role: Role
-    answers: int = Field(description="Answers that counted.")
-    answers_today: int
-    median_seconds: float | None
-    units: float = Field(description="What these answers cost, in all runs.")
+    answers: int = Field(description="The number of the user's answers that count.")
+    answers_today: int = Field(description="The number of these answers since midnight UTC.")
+    median_seconds: float | None = Field(
+        description="The median working time of the last 1,000 of these answers, without idle time, in seconds."
+    )
+    units: float = Field(description="The cost of these answers in all runs, in units.")
 
 
 class UserCreate(Message):
-    """A person or a program that may call."""
+    """A new user (a person or a program), sent by an administrator."""
 
     name: Name
     role: Role
 
 
 class UserPatch(Message):
-    """What may change in a user; absent fields stay as they are."""
+    """Changes of a user, sent by an administrator. Absent fields do not change."""
 
     role: Role | None = None
     active: bool | None = Field(
         default=None,
-        description="False ends their sessions, tokens, links and leases; their answers stay.",
+        description="False deactivates the user: sessions, tokens, login links and leases end; answers remain.",
     )
 
 
 class User(Message):
-    """A user, without secrets."""
+    """A user without secrets, sent by the server."""
 
     id: int
     name: str
     role: Role
-    created_at: float
-    deactivated_at: float | None = Field(description="Since when they may not call; null while they may.")
-    last_used_at: float | None = Field(description="When they last called, to the minute.")
+    created_at: float = Field(description="When the user was created, in seconds since the epoch.")
+    deactivated_at: float | None = Field(
+        description="When the user was deactivated, in seconds since the epoch; null for an active user."
+    )
+    last_used_at: float | None = Field(
+        description="When the user last called, in seconds since the epoch, to the minute; null if never."
+    )
 
 
 class UserList(Message):
-    """All users."""
+    """All users, sent by the server."""
 
     users: list[User]
 
 
 class TokenCreate(Message):
-    """An API token for the caller, or, made by an administrator, for any user."""
+    """A request for an API token. Only administrators may request tokens of other users."""
 
-    user: int | None = Field(default=None, ge=1, le=2**63 - 1, description="Whose; null for the caller's own.")
+    user: int | None = Field(
+        default=None, ge=1, le=2**63 - 1, description="The id of the token's user; null for the caller."
+    )
     label: Note = ""
 
 
 class NewToken(Message):
-    """A token, shown once; the server keeps only its hash."""
+    """A new API token, sent by the server only once. The server stores only its hash."""
 
     id: int
     token: str
 
 
 class Token(Message):
-    """A token that is good, without its secret."""
+    """A valid API token without its secret, sent by the server."""
 
     id: int
     label: str
-    created_at: float
-    last_used_at: float | None = Field(description="To the minute; null if never.")
+    created_at: float = Field(description="When the token was created, in seconds since the epoch.")
+    last_used_at: float | None = Field(
+        description="When the token was last used, in seconds since the epoch, to the minute; null if never."
+    )
 
 
 class TokenList(Message):
-    """A user's tokens that are good, oldest first."""
+    """A user's valid tokens, oldest first, sent by the server."""
 
     tokens: list[Token]
 
 
 class Session(Message):
-    """A browser that is signed in."""
+    """A browser that is signed in, sent by the server."""
 
     id: int
-    created_at: float
-    last_used_at: float | None
-    expires_at: float
-    current: bool = Field(description="Whether this is the session that asks.")
+    created_at: float = Field(description="When the user signed in, in seconds since the epoch.")
+    last_used_at: float | None = Field(
+        description="When the session was last used, in seconds since the epoch, to the minute."
+    )
+    expires_at: float = Field(description="When the session expires, in seconds since the epoch.")
+    current: bool = Field(description="Whether this is the session of the calling browser.")
 
 
 class SessionList(Message):
-    """The caller's sessions, oldest first."""
+    """The caller's sessions, oldest first, sent by the server."""
 
     sessions: list[Session]
 
 
 class LoginLinkCreate(Message):
-    """How long a new login link is to be good."""
+    """A request for a login link, sent by an administrator."""
 
     seconds: float | None = Field(
-        default=None, ge=60, le=7 * 86_400, allow_inf_nan=False, description="Null for the server's usual time."
+        default=None,
+        ge=60,
+        le=7 * 86_400,
+        allow_inf_nan=False,
+        description="How long the link is valid, in seconds; null for the server's default.",
     )
 
 
 class LoginLink(Message):
-    """A one-time login link's code, shown once."""
+    """The code of a new one-time login link, sent by the server only once."""
 
     code: str
-    expires_at: float
+    expires_at: float = Field(description="When the link expires, in seconds since the epoch.")
 
 
 class Tally(Message):
-    """What answers come to. Gold queries are among them: they are work too, though no run pays for them."""
+    """The number and the cost of an annotator's answers, including gold queries, which no run pays for."""
 
-    answers: int
-    units: float
+    answers: int = Field(description="The number of answers.")
+    units: float = Field(description="The cost of the answers, in units.")
 
 
 class NumbersOfKind(Message):
-    """An annotator's answers to one kind of query."""
+    """Statistics of an annotator's answers to one kind of query."""
 
     kind: Kind
     total: Tally
-    median_seconds: float
-    gold: int = Field(description="How many of them were to gold queries.")
-    gold_right: int = Field(description="How many of those were right in every label.")
-    agreement: float | None = Field(description="The share of right labels among those of gold queries.")
+    median_seconds: float = Field(description="The median time from lease to answer, in seconds.")
+    gold: int = Field(description="The number of answers to gold queries.")
+    gold_right: int = Field(description="The number of answers to gold queries with only correct labels.")
+    agreement: float | None = Field(
+        description="The share of correct labels in answers to gold queries, 0 to 1; null if there are none."
+    )
 
 
 class Numbers(Message):
-    """An annotator's own numbers, over all runs. Days are those of UTC."""
+    """Statistics of an annotator over all runs, sent by the server. Days are UTC days."""
 
-    user: int
-    name: str
+    user: int = Field(description="The id of the user.")
+    name: str = Field(description="The name of the user.")
     total: Tally
     today: Tally
     week: Tally = Field(description="Today and the six days before.")
-    gold: int
-    agreement: float | None
-    by_kind: list[NumbersOfKind] = Field(description="The kinds they have answered.")
+    gold: int = Field(description="The number of answers to gold queries.")
+    agreement: float | None = Field(
+        description="The share of correct labels in answers to gold queries, 0 to 1; null if there are none."
+    )
+    by_kind: list[NumbersOfKind] = Field(description="The statistics for each kind of query that they answered.")
 
 
 class NumbersList(Message):
-    """Everybody's numbers who ever answered, by name."""
+    """The statistics of all annotators who ever answered, by name, sent by the server."""
 
     annotators: list[Numbers]

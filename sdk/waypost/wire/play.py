@@ -1,4 +1,4 @@
-"""Playing a demonstration: the messages of `WS /queries/{id}/play`."""
+"""Defines the messages of `WS /queries/{id}/play`, the WebSocket on which a person plays a demonstration."""
 
 from typing import Annotated, Literal
 
@@ -18,15 +18,15 @@ __all__ = [
 
 
 class PlayTake(Message):
-    """An annotator's first message: shows that it holds the query's live assignment."""
+    """The annotator's first message. It proves that the annotator holds the query's live assignment."""
 
     type: Literal["take"]
-    assignment: int = Field(ge=1, le=2**63 - 1)
-    token: str = Field(max_length=200)
+    assignment: int = Field(ge=1, le=2**63 - 1, description="The id of the assignment.")
+    token: str = Field(max_length=200, description="The token of the assignment.")
 
 
 class PlayOffer(Message):
-    """A learner's first message: it offers the query's environment."""
+    """The learner's first message. It offers the environment of the query."""
 
     type: Literal["offer"]
 
@@ -35,38 +35,42 @@ PlayHello = Annotated[PlayTake | PlayOffer, Field(discriminator="type")]
 
 
 class PlayMoves(Message):
-    """Annotator to learner: the whole demonstration as it stands, so that neither end must remember the other's past.
+    """The whole demonstration so far, sent by the annotator to the learner.
 
-    What changed since the last message, and in which direction, is for the learner to see.
+    It is sent as a whole, so neither side has to remember earlier messages. The learner compares it with the last one.
     """
 
     type: Literal["moves"]
-    number: int = Field(ge=0, le=2**53 - 1, description="Counts these messages; the reply repeats it.")
-    segments: list[DemoSegment] = Field(max_length=10_000, description="As in the answer; none before the first move.")
-    known: int = Field(ge=0, le=10_001, description="States s_1 .. s_known need not be sent, the annotator has them.")
+    number: int = Field(ge=0, le=2**53 - 1, description="The number of this message; the reply repeats it.")
+    segments: list[DemoSegment] = Field(
+        max_length=10_000, description="The segments as in the answer; empty before the first action."
+    )
+    known: int = Field(
+        ge=0, le=10_001, description="The number of states that the annotator already has; the reply omits them."
+    )
 
 
 class PlayStates(Message):
-    """Learner to annotator: what the environment made of the moves."""
+    """The states after the annotator's actions, sent by the learner."""
 
     type: Literal["states"]
-    number: int = Field(ge=0, le=2**53 - 1)
-    known: int = Field(ge=0, le=10_001, description="How many states come before these.")
+    number: int = Field(ge=0, le=2**53 - 1, description="The number of the message that this one replies to.")
+    known: int = Field(ge=0, le=10_001, description="The number of states before `states`.")
     states: list[JsonValue] = Field(
         max_length=10_001,
-        description="The states after those, in the domain's JSON view, up to the episode's end.",
+        description="The following states up to the end of the episode, as JSON views of the domain.",
     )
     frames: list[FrameHash] = Field(
         default_factory=list,
         max_length=10_001,
-        description="A picture of each of these, uploaded before; none where the page draws the states itself.",
+        description="One uploaded picture per state; empty if the web app draws the states itself.",
     )
-    ended: bool = Field(description="Whether the episode ended in the last state; actions after it have no state.")
+    ended: bool = Field(description="Whether the episode ended in the last state; later actions have no state.")
     succeeded: bool = Field(description="Whether the whole task is accomplished in the last state.")
 
 
 class PlayStage(Message):
-    """Server to annotator: whether a learner offers the environment just now."""
+    """Sent by the server to the annotator: whether a learner offers the environment now."""
 
     type: Literal["stage"]
-    present: bool
+    present: bool = Field(description="Whether a learner is connected.")

@@ -1,4 +1,4 @@
-"""Runs, their curves and costs."""
+"""Defines the messages about runs: their settings, episodes, curves, costs and events."""
 
 from typing import Literal
 
@@ -25,52 +25,60 @@ __all__ = [
 
 
 class Prices(Message):
-    """What one label costs, in units, to six decimals. The paper: Label = length of what is labeled, Inspect = 1."""
+    """The prices of a run, in units with up to six decimals.
 
-    subgoal: Units = Field(default=1.0, description="One HI label: a subgoal at a state.")
-    action: Units = Field(default=1.0, description="One LO label: an action at a state.")
-    termination: Units = Field(default=1.0, description="The termination label of a segment's last state.")
-    inspect_full: Units = 1.0
-    inspect_lo: Units = 1.0
+    The defaults are the paper's: a Label costs the length of what it labels, an Inspect costs 1.
+    """
+
+    subgoal: Units = Field(default=1.0, description="The price of one HI label (a subgoal at a state), in units.")
+    action: Units = Field(default=1.0, description="The price of one LO label (an action at a state), in units.")
+    termination: Units = Field(default=1.0, description="The price of the termination labels of one segment, in units.")
+    inspect_full: Units = Field(default=1.0, description="The price of one Inspect_FULL, in units.")
+    inspect_lo: Units = Field(default=1.0, description="The price of one Inspect_LO, in units.")
 
 
 class Vocabulary(Message):
-    """A domain's names, in the order of its own numbering, and how the page draws it."""
+    """The names of a domain, in the order of its numbers, and the renderer that draws it in the web app."""
 
     domain: Name
-    subgoals: list[Name] = Field(max_length=1_000, description="Empty for a domain without subgoals.")
-    actions: list[Name] = Field(min_length=1, max_length=1_000)
-    renderer: Name = Field(description="Which of the page's renderers draws its instances and states.")
+    subgoals: list[Name] = Field(max_length=1_000, description="The subgoals; empty for a domain without subgoals.")
+    actions: list[Name] = Field(min_length=1, max_length=1_000, description="The actions.")
+    renderer: Name = Field(description="The renderer of the web app that draws its instances and states.")
 
 
 class RunCreate(Message):
-    """What a learner says of itself before it asks."""
+    """The description of a new run, sent by the learner."""
 
     name: Name
     algorithm: Name
     seed: int = Field(ge=0, le=2**63 - 1)
     vocabulary: Vocabulary
-    config: dict[str, JsonValue] = Field(default_factory=dict, description="Every value that fixes the run.")
+    config: dict[str, JsonValue] = Field(default_factory=dict, description="All values that determine the run.")
     prices: Prices = Field(default_factory=Prices)
-    budget: Units | None = Field(default=None, description="Most units the run may ever cost; null for no limit.")
-    episodes: int | None = Field(default=None, ge=1, le=10**9, description="How many episodes are planned.")
+    budget: Units | None = Field(
+        default=None, description="The highest total cost of the run, in units; null for no limit."
+    )
+    episodes: int | None = Field(default=None, ge=1, le=10**9, description="The planned number of episodes.")
 
 
 class RunPatch(Message):
-    """What may change in a run; absent fields stay as they are, and a null budget lifts it."""
+    """Changes of a run. Absent fields do not change; a null budget removes the limit."""
 
     name: Name | None = None
     state: RunState | None = None
-    budget: Units | None = None
+    budget: Units | None = Field(default=None, description="The highest total cost of the run, in units.")
     priority: int | None = Field(
-        default=None, ge=-1_000, le=1_000, description="Queries of a run with a higher one are handed out first."
+        default=None,
+        ge=-1_000,
+        le=1_000,
+        description="Queries of a run with a higher priority are handed out first.",
     )
-    result: dict[str, JsonValue] | None = Field(default=None, description="What the learner reports at its end.")
+    result: dict[str, JsonValue] | None = Field(default=None, description="The learner's report at the end of the run.")
     gold_rate: GoldRate | None = None
 
 
 class Run(Message):
-    """A run and where its money is: `spent + reserved <= budget`, always."""
+    """A run and its account, sent by the server. `spent + reserved <= budget` holds at all times."""
 
     id: str
     name: str
@@ -78,103 +86,119 @@ class Run(Message):
     seed: int
     state: RunState
     vocabulary: Vocabulary
-    config: dict[str, JsonValue]
+    config: dict[str, JsonValue] = Field(description="All values that determine the run.")
     prices: Prices
-    budget: float | None
-    reserved: float = Field(description="Units held for queries asked and not yet answered.")
-    spent: float
-    priority: int = Field(description="Queries of a run with a higher one are handed out first.")
-    episodes: int | None
-    episodes_done: int
-    success_rate: float | None = Field(description="Over the trailing 100 test episodes; null before the first.")
-    open_queries: int
-    gold_rate: float
-    result: dict[str, JsonValue] | None
-    created_at: float
-    finished_at: float | None
+    budget: float | None = Field(description="The highest total cost of the run, in units; null for no limit.")
+    reserved: float = Field(description="The units reserved for unanswered queries.")
+    spent: float = Field(description="The units spent on answered queries.")
+    priority: int = Field(description="Queries of a run with a higher priority are handed out first.")
+    episodes: int | None = Field(description="The planned number of episodes; null if unknown.")
+    episodes_done: int = Field(description="The number of reported episodes.")
+    success_rate: float | None = Field(
+        description="The success rate over the trailing 100 test episodes, 0 to 1; null before the first."
+    )
+    open_queries: int = Field(description="The number of unanswered queries.")
+    gold_rate: float = Field(description="The share of gold queries among an annotator's queries, 0 to 0.5.")
+    result: dict[str, JsonValue] | None = Field(description="The learner's report at the end of the run.")
+    created_at: float = Field(description="When the run was created, in seconds since the epoch.")
+    finished_at: float | None = Field(description="When the run finished, in seconds since the epoch.")
 
 
 RunSort = Literal["newest", "name", "algorithm", "episodes", "success", "cost"]
 
 
 class RunList(Message):
-    """A page of runs."""
+    """One page of runs, sent by the server."""
 
     runs: list[Run]
-    total: int = Field(description="How many there are on all pages.")
+    total: int = Field(description="The number of runs on all pages.")
 
 
 class EpisodeResult(Message):
-    """What one episode brought. Reporting it again, the seconds aside with the same content, changes nothing."""
+    """The result of one episode, sent by the learner.
 
-    episode: int = Field(ge=0, le=2**31 - 1)
-    warm_start: bool = Field(description="Whether this was a demonstration rather than a rollout.")
-    train_success: bool | None = Field(description="Did the training rollout succeed? Null for a demonstration.")
-    test_success: bool | None = Field(description="Did the test rollout on an unseen instance succeed?")
-    train_steps: int = Field(ge=0)
-    test_steps: int = Field(ge=0)
-    hi_labels: int = Field(ge=0, description="Size of D_HI after the episode.")
-    lo_labels: int = Field(ge=0, description="Size of all D_g (flat: of D) after the episode.")
-    seconds: float = Field(ge=0, allow_inf_nan=False, description="The learner's wall time for the episode.")
+    Sending it again changes nothing, if all fields except `seconds` are the same.
+    """
+
+    episode: int = Field(ge=0, le=2**31 - 1, description="The number of the episode, from 0.")
+    warm_start: bool = Field(description="Whether the episode was a demonstration instead of a rollout.")
+    train_success: bool | None = Field(description="Whether the training rollout succeeded; null for a demonstration.")
+    test_success: bool | None = Field(
+        description="Whether the test rollout on an unseen instance succeeded; null if there was none."
+    )
+    train_steps: int = Field(ge=0, description="The learner's steps in the training rollout.")
+    test_steps: int = Field(ge=0, description="The learner's steps in the test rollout.")
+    hi_labels: int = Field(ge=0, description="The size of D_HI after the episode.")
+    lo_labels: int = Field(ge=0, description="The size of all D_g together (flat learner: of D) after the episode.")
+    seconds: float = Field(
+        ge=0, allow_inf_nan=False, description="The learner's wall time for the episode, in seconds."
+    )
 
 
 class EpisodeList(Message):
-    """Results to report, in episode order."""
+    """Results of episodes, in their order, sent by the learner."""
 
     episodes: list[EpisodeResult] = Field(min_length=1, max_length=10_000)
 
 
 class Curves(Message):
-    """Columns of equal length, a row per reported episode; sums are cumulative up to and with that episode."""
+    """The curves of a run as columns with one row per reported episode, sent by the server.
 
-    episode: list[int]
-    success_rate: list[float | None] = Field(description="Over the trailing 100 test episodes (fewer at the start).")
-    test_success: list[bool | None]
-    cost: list[float]
-    lo_cost: list[float] = Field(description="Units spent on LO labels: actions and terminations.")
-    seconds: list[float] = Field(description="Annotators' seconds, from lease to answer.")
-    active_seconds: list[float] = Field(description="Annotators' own time, without idle time.")
-    cost_by_kind: dict[Kind, list[float]]
-    hi_labels: list[int] = Field(description="Size of D_HI.")
-    lo_samples: list[int] = Field(description="LO-level steps taken in training rollouts.")
-    learner_seconds: list[float] = Field(description="The learner's wall time.")
+    Sums are cumulative and include the episode of the row.
+    """
+
+    episode: list[int] = Field(description="The number of the episode, from 0.")
+    success_rate: list[float | None] = Field(
+        description="The success rate over the trailing 100 test episodes (fewer at the start), 0 to 1."
+    )
+    test_success: list[bool | None] = Field(description="Whether the test rollout succeeded; null if there was none.")
+    cost: list[float] = Field(description="The total cost, in units.")
+    lo_cost: list[float] = Field(description="The cost of LO labels (actions and terminations), in units.")
+    seconds: list[float] = Field(description="The annotators' time from lease to answer, in seconds.")
+    active_seconds: list[float] = Field(description="The annotators' working time without idle time, in seconds.")
+    cost_by_kind: dict[Kind, list[float]] = Field(description="The cost by kind of query, in units.")
+    hi_labels: list[int] = Field(description="The size of D_HI.")
+    lo_samples: list[int] = Field(description="The number of LO-level steps in training rollouts.")
+    learner_seconds: list[float] = Field(description="The learner's wall time, in seconds.")
 
 
 class Milestone(Message):
-    """When the success rate over 100 test episodes first reached a level."""
+    """The first time that the success rate over 100 test episodes reached a level."""
 
-    episode: int
-    cost: float
+    episode: int = Field(description="The number of the episode, from 0.")
+    cost: float = Field(description="The total cost up to and including this episode, in units.")
 
 
 class CostOfKind(Message):
-    """The ledger's sum for one kind of query."""
+    """The sums of the ledger for one kind of query."""
 
-    queries: int
-    units: float
-    lo_units: float
-    seconds: float
-    active_seconds: float
+    queries: int = Field(description="The number of charged answers, without refunded ones.")
+    units: float = Field(description="The cost, in units.")
+    lo_units: float = Field(description="The part of `units` for LO labels: actions and terminations.")
+    seconds: float = Field(description="The time from lease to answer, in seconds.")
+    active_seconds: float = Field(description="The annotators' working time without idle time, in seconds.")
 
 
 class Costs(Message):
-    """The ledger of a run."""
+    """The sums of a run's ledger, sent by the server."""
 
-    total: float
-    lo_total: float
-    seconds: float
-    active_seconds: float
+    total: float = Field(description="The total cost, in units.")
+    lo_total: float = Field(description="The cost of LO labels (actions and terminations), in units.")
+    seconds: float = Field(description="The annotators' time from lease to answer, in seconds.")
+    active_seconds: float = Field(description="The annotators' working time without idle time, in seconds.")
     by_kind: dict[Kind, CostOfKind]
-    reserved: float
-    budget: float | None
-    first_at: dict[str, Milestone | None] = Field(description='By success level: "0.8", "0.9", "0.95", "0.99".')
+    reserved: float = Field(description="The units reserved for unanswered queries.")
+    budget: float | None = Field(description="The highest total cost of the run, in units; null for no limit.")
+    first_at: dict[str, Milestone | None] = Field(
+        description='By success level ("0.8", "0.9", "0.95", "0.99"): when it was first reached; null if it was not.'
+    )
 
 
 class Event(Message):
-    """One change of a run, as sent by server-sent events; `id` is the cursor to go on from."""
+    """One change of a run, a server-sent event."""
 
-    id: int
-    run: str
+    id: int = Field(description="The cursor: a client that reconnects continues after this id.")
+    run: str = Field(description="The id of the run.")
     event: Literal["asked", "answered", "retracted", "used", "cancelled", "episode", "run"]
-    at: float
+    at: float = Field(description="When it happened, in seconds since the epoch.")
     data: dict[str, JsonValue]

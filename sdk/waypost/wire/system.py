@@ -1,4 +1,4 @@
-"""The health of the server, and what is said of a refusal."""
+"""Defines the messages about the server's health and about errors."""
 
 from typing import Literal
 
@@ -13,18 +13,18 @@ __all__ = [
 
 
 class Health(Message):
-    """Alive, or ready to work."""
+    """The server's reply when it is alive or ready."""
 
     status: Literal["ok"]
-    version: str
+    version: str = Field(description="The version of Waypost.")
 
 
 class Problem(BaseModel):
-    """RFC 9457: what was wrong and what to do about it."""
+    """The server's reply to every request that it refuses, in the format of RFC 9457."""
 
-    type: str = Field(description="A stable name of the problem: `/problems/<name>`.")
-    title: str
-    status: int
-    detail: str
-    instance: str | None = None
-    errors: list[dict[str, JsonValue]] | None = Field(default=None, description="For 422: each field at fault.")
+    type: str = Field(description="The stable name of the problem: `/problems/<name>`.")
+    title: str = Field(description="The problem in a few words, the same for every occurrence.")
+    status: int = Field(description="The HTTP status code.")
+    detail: str = Field(description="What was wrong with this request, and what to do.")
+    instance: str | None = Field(default=None, description="The path of the request.")
+    errors: list[dict[str, JsonValue]] | None = Field(default=None, description="For status 422: each invalid field.")

@@ -1,4 +1,4 @@
-"""Watching: what whoever looks at a run leafs through."""
+"""Defines the paginated views of a run: its queries, its ledger, the history of a query, and who is working."""
 
 from typing import Literal
 
@@ -32,125 +32,127 @@ ExportFormat = Literal["csv", "jsonl"]
 
 
 class QueryRow(Message):
-    """A query in a table: what was asked and what came of it, without the trajectory."""
+    """A query and its answer without the trajectory, as a row of a table; sent by the server."""
 
     id: int
-    episode: int
-    ordinal: int
+    episode: int = Field(description="The number of the episode in the run, from 0.")
+    ordinal: int = Field(description="The number of the query in the episode, from 0.")
     kind: Kind
     state: QueryState
-    priority: int
-    question: str
-    created_at: float
-    answered_at: float | None
-    answer: Answer | None
-    used: bool
-    annotator: str | None = Field(description="Who answered, or who holds it now.")
-    units: float | None
-    seconds: float | None
-    skips: int = Field(description="How often it was skipped.")
-    expiries: int = Field(description="How many of its leases ran out.")
+    priority: int = Field(description="Queries with a higher priority are handed out first.")
+    question: str = Field(description="The query in words.")
+    created_at: float = Field(description="When the learner asked, in seconds since the epoch.")
+    answered_at: float | None = Field(description="When the answer was given, in seconds since the epoch.")
+    answer: Answer | None = Field(description="The answer that counts; null if there is none.")
+    used: bool = Field(description="Whether the learner has used the answer.")
+    annotator: str | None = Field(description="The name of the user who answered, or who holds the query now.")
+    units: float | None = Field(description="The cost of the answer, in units.")
+    seconds: float | None = Field(description="The time from lease to answer, in seconds.")
+    skips: int = Field(description="How often annotators skipped the query.")
+    expiries: int = Field(description="How many leases of the query expired.")
 
 
 class QueryPage(Message):
-    """A page of a run's queries, newest first."""
+    """One page of a run's queries, newest first, sent by the server."""
 
     rows: list[QueryRow]
-    total: int = Field(description="How many there are on all pages.")
-    newest: int | None = Field(description="The newest of them on any page.")
-    oldest: int | None = Field(description="The oldest of them on any page.")
+    total: int = Field(description="The number of queries on all pages.")
+    newest: int | None = Field(description="The id of the newest query on all pages.")
+    oldest: int | None = Field(description="The id of the oldest query on all pages.")
 
 
 class LedgerEntry(Message):
-    """One line of the ledger: a charge, or a refund with its amounts below zero."""
+    """One entry of the ledger, sent by the server: a charge, or a refund with negative amounts."""
 
     id: int
-    at: float
+    at: float = Field(description="When it was booked, in seconds since the epoch.")
     entry: LedgerEntryKind
-    kind: Kind
-    query: int
-    episode: int
-    ordinal: int
-    annotator: str
-    units: float
-    lo_units: float
-    seconds: float
-    balance: float = Field(description="What the run had spent after this line.")
+    kind: Kind = Field(description="The kind of the query.")
+    query: int = Field(description="The id of the query.")
+    episode: int = Field(description="The number of the episode in the run, from 0.")
+    ordinal: int = Field(description="The number of the query in the episode, from 0.")
+    annotator: str = Field(description="The name of the user who answered.")
+    units: float = Field(description="The cost of the answer, in units.")
+    lo_units: float = Field(description="The part of `units` for LO labels: actions and terminations.")
+    seconds: float = Field(description="The time from lease to answer, in seconds.")
+    balance: float = Field(description="The units that the run had spent after this entry.")
 
 
 class LedgerPage(Message):
-    """A page of a run's ledger, newest first, and the sums of all its pages."""
+    """One page of a run's ledger, newest first, with the sums over all pages; sent by the server."""
 
     entries: list[LedgerEntry]
-    total: int = Field(description="How many lines there are on all pages.")
-    newest: int | None = Field(description="The newest of them on any page.")
-    oldest: int | None = Field(description="The oldest of them on any page.")
-    units: float
-    lo_units: float
-    seconds: float
-    spent: float = Field(description="What the run's account says; without a filter, `units` is the same.")
+    total: int = Field(description="The number of entries on all pages.")
+    newest: int | None = Field(description="The id of the newest entry on all pages.")
+    oldest: int | None = Field(description="The id of the oldest entry on all pages.")
+    units: float = Field(description="The sum of `units` on all pages.")
+    lo_units: float = Field(description="The sum of `lo_units` on all pages.")
+    seconds: float = Field(description="The sum of `seconds` on all pages.")
+    spent: float = Field(description="The units that the run has spent; equal to `units` if there is no filter.")
 
 
 class PastAnswer(Message):
-    """An answer as it was given; never changed."""
+    """An answer that was given at some time, sent by the server. Answers never change."""
 
     id: int
     content: Answer
-    at: float
-    units: float = Field(description="What it was charged; 0 if it came too late.")
-    seconds: float
-    fate: Literal["counts", "retracted", "late"]
+    at: float = Field(description="When it was given, in seconds since the epoch.")
+    units: float = Field(description="The charged units; 0 if the answer was late.")
+    seconds: float = Field(description="The time from lease to answer, in seconds.")
+    fate: Literal["counts", "retracted", "late"] = Field(
+        description="Whether the answer counts, was retracted, or came after the end of the lease."
+    )
 
 
 class PastAssignment(Message):
-    """One time a query was handed out, and how that ended."""
+    """One assignment of a query and its end, sent by the server."""
 
     id: int
-    annotator: str
+    annotator: str = Field(description="The name of the user.")
     state: AssignmentState
-    reason: str | None = Field(description="What was said when it was skipped or given back.")
-    leased_at: float
-    expires_at: float
-    ended_at: float | None
+    reason: str | None = Field(description="The annotator's reason for skipping or releasing it.")
+    leased_at: float = Field(description="When the lease began, in seconds since the epoch.")
+    expires_at: float = Field(description="When the lease expires or expired, in seconds since the epoch.")
+    ended_at: float | None = Field(description="When the assignment ended, in seconds since the epoch; null if live.")
     answer: PastAnswer | None
 
 
 class QueryHistory(Message):
-    """Everything that became of a query, oldest first, and its neighbors in its run."""
+    """All assignments and ledger entries of a query, oldest first, and its neighbors; sent by the server."""
 
     assignments: list[PastAssignment]
     ledger: list[LedgerEntry]
-    previous: int | None = Field(description="The query asked before it in the run, by episode and ordinal.")
-    next: int | None
+    previous: int | None = Field(description="The id of the previous query in the run, by episode and ordinal.")
+    next: int | None = Field(description="The id of the next query in the run, by episode and ordinal.")
 
 
 class Holding(Message):
-    """A query somebody holds right now."""
+    """A query that an annotator holds now, sent by the server."""
 
-    query: int
-    run: str
+    query: int = Field(description="The id of the query.")
+    run: str = Field(description="The id of the run.")
     kind: Kind
-    episode: int
-    leased_at: float
+    episode: int = Field(description="The number of the episode in the run, from 0.")
+    leased_at: float = Field(description="When the lease began, in seconds since the epoch.")
 
 
 class AtWork(Message):
-    """An annotator who asked for work of late or holds a query."""
+    """An annotator who recently asked for work or holds a query, sent by the server."""
 
-    annotator: str
-    run: str | None = Field(description="The run asked for; null for any.")
-    kinds: list[Kind] | None = Field(description="The kinds asked for; null for any.")
-    seen_at: float
-    holds: list[Holding]
+    annotator: str = Field(description="The name of the user.")
+    run: str | None = Field(description="The id of the requested run; null for any run.")
+    kinds: list[Kind] | None = Field(description="The requested kinds of queries; null for all kinds.")
+    seen_at: float = Field(description="When they last asked for work or renewed a lease, in seconds since the epoch.")
+    holds: list[Holding] = Field(description="The queries that they hold, oldest first.")
 
 
 class AtWorkList(Message):
-    """Who is at work, the one seen last first."""
+    """The annotators who are working, most recently seen first; sent by the server."""
 
     annotators: list[AtWork]
 
 
 class Change(Message):
-    """Something changed in some run, as sent by server-sent events."""
+    """A server-sent event: something changed in some run."""
 
-    newest: int = Field(description="The newest event of any run.")
+    newest: int = Field(description="The id of the newest event of all runs.")

@@ -1,4 +1,4 @@
-"""What all messages are made of."""
+"""Defines the base class and the shared types of all messages."""
 
 from typing import Annotated, Literal, get_args
 
@@ -29,13 +29,19 @@ Role = Literal["admin", "learner", "annotator", "viewer"]
 Name = Annotated[str, Field(min_length=1, max_length=100, pattern=r"^[^\x00-\x1f\x7f]+$")]
 Note = Annotated[str, Field(max_length=500, pattern=r"^[^\x00]*$")]
 GoldRate = Annotated[
-    float, Field(ge=0, le=0.5, allow_inf_nan=False, description="Share of an annotator's queries that are gold.")
+    float,
+    Field(
+        ge=0,
+        le=0.5,
+        allow_inf_nan=False,
+        description="The share of gold queries among an annotator's queries, 0 to 0.5.",
+    ),
 ]
 Units = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
-FrameHash = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$", description="The SHA-256 of a PNG, in hexadecimal.")]
+FrameHash = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$", description="The SHA-256 of a PNG file, in hexadecimal.")]
 
 
 class Message(BaseModel):
-    """What all messages share: unknown fields and lax conversions (`"3"` for 3) are refused."""
+    """The base class of all messages. It rejects unknown fields and values of the wrong type, such as "3" for 3."""
 
     model_config = ConfigDict(extra="forbid", strict=True, json_schema_serialization_defaults_required=True)

@@ -79,5 +79,5 @@ def test_a_domain_is_found_by_its_name_and_keeps_its_promises(name: str) -> None
 
 
 def test_a_domain_that_is_not_installed_is_refused_with_those_that_are() -> None:
-    with pytest.raises(ValueError, match=r"no domain 'chess'; installed are: .*corridor.*maze"):
+    with pytest.raises(ValueError, match=r"no domain 'chess'; the installed domains are: .*corridor.*maze"):
         find_domain("chess")

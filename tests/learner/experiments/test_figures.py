@@ -267,12 +267,12 @@ def test_missing_runs_are_listed_with_how_far_they_are_and_the_command_that_make
     said = refused(*arguments).splitlines()
     assert said == [
         "These runs are missing:",
-        "  h-bc, random, tiny, seed 1, not begun",
-        "  hg-dagger, random, tiny, seed 3, not begun",
+        "  h-bc, random, tiny, seed 1, not started",
+        "  hg-dagger, random, tiny, seed 3, not started",
         "  h-bc, random, tiny, seed 3, 7 of 20 episodes",
-        "This makes them:",
+        "This command trains them:",
         "  waypost sweep --figure tiny --seeds 1,3 --store waypost.db",
-        "With --partial, what is there is drawn.",
+        "Use --partial to draw without them.",
     ]
     assert complaint(said[5].strip()) is None
     assert not Path("figures").exists()
@@ -317,8 +317,8 @@ def test_a_store_of_a_newer_version_is_refused(trained: Path) -> None:
         (("--from", "nowhere"), "There is no runs.csv.gz in nowhere."),
         (("--server", "http://127.0.0.1:9"), "WAYPOST_TOKEN"),
         (("--from", ".", "--seeds", "1,one"), "'1,one'"),
-        (("--from", ".", "--seeds", "1,1"), "numbers that differ"),
-        (("--from", ".", "--figure", "atari"), "those that exist are: maze, lean, published"),
+        (("--from", ".", "--seeds", "1,1"), "different numbers"),
+        (("--from", ".", "--figure", "atari"), "the figures are: maze, lean, published"),
     ],
 )
 def test_what_is_wrong_is_said_in_one_sentence(arguments: tuple[str, ...], said: str) -> None:

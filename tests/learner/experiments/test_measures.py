@@ -107,11 +107,11 @@ def test_a_level_needs_a_full_hundred_of_tests() -> None:
 
 def test_counted_as_the_authors_count_inspections_cost_nothing() -> None:
     comparison = published_runs()
-    found = results_of(comparison)[("hg-DAgger", "expert cost in all")].ours
+    found = results_of(comparison)[("hg-DAgger", "total expert cost")].ours
     assert found is not None
     assert found.median == 4 * 1_000  # six kinds without two inspections
     honest = results_of(Comparison(plan.GROUPS["corners"], comparison.runs))
-    with_inspections = honest[("hg-DAgger", "expert cost in all")].ours
+    with_inspections = honest[("hg-DAgger", "total expert cost")].ours
     assert with_inspections is not None
     assert with_inspections.median == 6 * 1_000
     assert [name for name, group in plan.GROUPS.items() if group.labels_only] == ["published", "naive"]
@@ -121,9 +121,9 @@ def test_published_numbers_stand_beside_those_counted_alike_and_nowhere_else() -
     comparison = published_runs()
     beside = results_of(comparison)
     assert beside[("hg-DAgger", "success after 500 episodes")].published == pytest.approx(81)
-    assert beside[("h-BC", "expert cost in all")].published == 64_000
+    assert beside[("h-BC", "total expert cost")].published == 64_000
     assert beside[("flat BC", "expert cost when 80% was reached")].published == float("inf")
-    assert beside[("", "expert cost of hg-DAgger to flat DAgger's")].published == pytest.approx(0.35)
+    assert beside[("", "expert cost, hg-DAgger / flat DAgger")].published == pytest.approx(0.35)
     elsewhere = results_of(Comparison(plan.GROUPS["corners"], comparison.runs))
     assert {result.published for result in elsewhere.values()} == {None}
 
@@ -164,7 +164,7 @@ def test_ratios_are_of_runs_of_one_seed() -> None:
         return [run_of(replace(config, seed=seed), [True] * 2, label_lo=[1, units]) for seed, units in spent.items()]
 
     comparison = Comparison(group, {guided: runs(guided, {0: 2, 1: 10, 7: 9}), naive: runs(naive, {1: 20, 0: 100})})
-    found = results_of(comparison)[("", "LO cost of naive h-DAgger to hg-DAgger's, without demonstrations")].ours
+    found = results_of(comparison)[("", "LO cost without demonstrations, naive h-DAgger / hg-DAgger")].ours
     assert found is not None
     assert (found.low, found.high, found.runs) == (2, 50, 2)
 

@@ -174,7 +174,7 @@ def test_a_sweep_can_write_to_a_server(tmp_path: Path, token: tuple[str, str]) -
 def test_the_command_refuses_a_figure_that_does_not_exist(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["sweep", "--figure", "mazes", "--store", str(tmp_path / "a.db")])
     assert done.exit_code == 2
-    assert "those that exist are: maze, lean, published" in done.output
+    assert "the figures are: maze, lean, published" in done.output
     assert list(tmp_path.iterdir()) == []
 
 
@@ -213,4 +213,4 @@ def test_runs_that_an_archive_holds_are_not_made_again(tmp_path: Path) -> None:
     command = ["sweep", "--figure", "naive", "--seeds", "0", "--from", str(tmp_path), "--store", str(tmp_path / "a.db")]
     done = CliRunner().invoke(app, [*command, "--json"])
     assert json.loads(done.stdout) == {"runs": 2, "failed": {}}
-    assert "2 of 2 runs are there" in CliRunner().invoke(app, command).stdout
+    assert "2 of 2 runs are finished" in CliRunner().invoke(app, command).stdout

@@ -288,7 +288,7 @@ def test_the_table_has_a_line_for_each_cell_and_kind_of_episodes() -> None:
     assert len(lines) == len(SMALL) * 2
     assert [line.split()[:5] for line in lines[:2]] == [["2", "2", "8", "4", "2"], ["3", "2", "5", "3", "3"]]
     assert lines[0].split()[-2:] == ["1.75", "1.000"]  # (2 + 2 + 3) / 4 and 4 / 4
-    assert re.search(r"No seed spent more .* than \d+\.\d% \(hg-DAgger\), \d+\.\d% \(flat\)\.", done.stdout)
+    assert re.search(r"The largest .* is \d+\.\d% \(hg-DAgger\) and \d+\.\d% \(flat\)\.", done.stdout)
 
 
 @pytest.mark.usefixtures("small_grid")

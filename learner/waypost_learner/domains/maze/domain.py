@@ -1,4 +1,4 @@
-"""The maze navigation domain of the paper."""
+"""Defines the maze navigation domain of the paper (section 6.1)."""
 
 from pathlib import Path
 from typing import Any
@@ -26,13 +26,16 @@ from waypost_learner.domains.maze.views import FLAT_VIEW, HI_VIEW, LO_VIEW
 
 
 class MazeDomain:
-    """Rooms, doors and lava; the subgoals lead into the next room or to the target."""
+    """The maze as a `waypost.domain.Domain` that also describes its structure (`waypost.domain.Structured`).
+
+    A subgoal leads to the next room in a direction, or to the target.
+    """
 
     name = "maze"
     subgoals = SUBGOALS
     actions = ACTIONS
     renderer = "maze"
-    horizons = Horizons(lo=10, hi=ROOMS**2, full=MAX_STEPS)  # a shortest path enters no room twice
+    horizons = Horizons(lo=10, hi=ROOMS**2, full=MAX_STEPS)  # a shortest path enters every room at most once
     observation_shape = (3, SIZE, SIZE)
     symmetries = symmetries()
     hi_view, lo_view, flat_view = HI_VIEW, LO_VIEW, FLAT_VIEW
@@ -47,16 +50,22 @@ class MazeDomain:
         return MazeEnv()
 
     def instances(self, name: str) -> InstanceSets:
-        """Return `random` or `corners` (1,000 + 1,000 mazes), or the mazes of an `.npz`, to train and to test on."""
+        """Return a set of mazes: `random`, `corners` (1,000 training and 1,000 test mazes each), or an `.npz` file.
+
+        The mazes of a file are used for training and for testing.
+
+        Raises:
+            ValueError: the name is unknown, or the file is not a valid maze set.
+        """
         if name in KINDS:
             return InstanceSets(*maze_set(name), vary=with_doors_redrawn if name == "corners" else None)
         if not name.endswith(".npz"):
-            raise ValueError(f"the maze has no instances {name!r}; there are {', '.join(KINDS)}, or a file.npz")
+            raise ValueError(f"the maze has no instances {name!r}; use {', '.join(KINDS)}, or an .npz file")
         mazes = load_mazes(Path(name))
         return InstanceSets(train=mazes, test=mazes)
 
     def instance_view(self, instance: Maze) -> Any:
-        """Return rows of text, start and goal."""
+        """Return the rows as text, the start and the goal."""
         return instance.to_json()
 
     def state_view(self, env: Any) -> Any:
@@ -64,7 +73,7 @@ class MazeDomain:
         return list(env.unwrapped.cell)
 
     def place(self, state: Any) -> Any:
-        """Return the agent's room; where it stands in a door, that door."""
+        """Return the agent's room; if the agent is in a door, the cell of the door."""
         cell = cell_of(state)
         return room_of(cell) or cell
 
@@ -73,10 +82,11 @@ class MazeDomain:
         return bool(env.unwrapped.cell == env.unwrapped.maze.goal)
 
     def outcome(self, instance: Maze, origin: Any, state: Any, subgoal: Subgoal) -> Outcome | None:
-        """Reached: the next room on that side, or the target. Failed: lava, or another room than the subgoal's.
+        """Return "reached" in the subgoal's room or on its target, "failed" in lava or in another room, else None.
 
         "A pseudo-reward of 1 for [...] stepping through the correct door and negative reward for stepping into lava
-        or through other doors" (section 6.1); as in a demonstration, one is through a door in the room behind it.
+        or through other doors" (section 6.1). As in a demonstration, a step through a door is complete only in the
+        room behind the door.
         """
         here, began = cell_of(state), room_of(cell_of(origin))
         if instance.lava[here]:

@@ -1,10 +1,10 @@
-"""The maze as a gymnasium environment (paper, section 6.1).
+"""Defines the maze as a gymnasium environment (paper, section 6.1).
 
-Actions: up, down, left, right, one cell. Stepping on lava ends the episode with reward -1, stepping on the target ends
-it with reward 1, every other step gives 0; after 100 steps the episode is truncated.
+The actions up, down, left and right move the agent one cell. A step onto lava ends the episode with reward -1, a step
+onto the target ends it with reward 1, and every other step has reward 0. After 100 steps the episode is truncated.
 
-Observation: float32[3, 17, 17], a bird's-eye view with the authors' values: channel 0 holds 0.4 where the agent is,
-channel 1 holds 1 for lava and -0.5 for the trail of visited cells, channel 2 holds -1 at the target.
+The observation is float32[3, 17, 17], a bird's-eye view with the authors' values: channel 0 is 0.4 at the agent;
+channel 1 is 1 in lava and -0.5 on the trail of visited cells; channel 2 is -1 at the target.
 """
 
 from collections.abc import Sequence
@@ -25,7 +25,7 @@ Observation = NDArray[np.float32]
 
 
 class MazeEnv(gymnasium.Env[Observation, np.int64]):
-    """One maze at a time, out of `mazes` or given to `reset(options={"instance": maze})`."""
+    """The maze environment. `reset` starts `options["instance"]`, or else a random maze of `mazes`."""
 
     metadata = {"render_modes": ["ansi"], "render_fps": 4}  # noqa: RUF012 (gymnasium's own form)
 
@@ -39,7 +39,7 @@ class MazeEnv(gymnasium.Env[Observation, np.int64]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
-        """Start a maze: the one in `options`, else a random one of the set."""
+        """Start `options["instance"]`, or a random maze of the set."""
         super().reset(seed=seed)
         mazes = self.mazes or maze_set("random")[0]
         self.maze = (options or {}).get("instance") or mazes[int(self.np_random.integers(len(mazes)))]
@@ -52,10 +52,10 @@ class MazeEnv(gymnasium.Env[Observation, np.int64]):
         return self._pixels.copy(), {}
 
     def step(self, action: np.int64) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Move one cell.
+        """Move the agent one cell.
 
         Raises:
-            RuntimeError: before the first reset.
+            RuntimeError: `reset` was never called.
         """
         if self.maze is None:
             raise RuntimeError("call reset() before the first step()")

@@ -1,4 +1,7 @@
-"""Maze sets in files: `.npz` with `lava` bool[N, 17, 17], `start` int8[N, 2] and `goal` int8[N, 2], (row, column)."""
+"""Reads and writes maze sets as files.
+
+A file is an `.npz` with `lava` bool[N, 17, 17], `start` int8[N, 2] and `goal` int8[N, 2]; cells are (row, column).
+"""
 
 import zipfile
 import zlib
@@ -8,13 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from waypost_learner.domains.maze.maze import ROOMS, SIZE, Maze, distances_from, room_of
+from waypost_learner.domains.maze.maze import PITCH, SIZE, Maze, distances_from, room_of
 
 _SHAPES: dict[str, tuple[int, ...]] = {"lava": (SIZE, SIZE), "start": (2,), "goal": (2,)}
 
 
 def save_mazes(path: Path, mazes: list[Maze]) -> None:
-    """Write a maze set."""
+    """Write mazes to a file."""
     np.savez_compressed(
         path,
         lava=np.stack([maze.lava for maze in mazes]),
@@ -24,10 +27,10 @@ def save_mazes(path: Path, mazes: list[Maze]) -> None:
 
 
 def load_mazes(path: Path) -> list[Maze]:
-    """Read a maze set.
+    """Return the mazes of a file.
 
     Raises:
-        ValueError: the file is none; the message names the array at fault.
+        ValueError: the file is not a valid maze set; the message names the invalid array.
     """
     try:
         with path.open("rb") as stream:
@@ -38,7 +41,7 @@ def load_mazes(path: Path) -> list[Maze]:
     except FileNotFoundError as error:
         raise ValueError(f"there is no file {path}") from error
     except (OSError, EOFError, ValueError, zipfile.BadZipFile, zlib.error) as error:
-        raise ValueError(f"{path} is no maze set: an .npz file of plain arrays is expected, without pickles") from error
+        raise ValueError(f"{path} is no maze set: it must be an .npz file of plain arrays, without pickles") from error
     lava, start, goal = (_checked(path, arrays, name) for name in _SHAPES)
     if not len(lava):
         raise ValueError(f"{path} is an empty maze set: `lava` has no mazes")
@@ -65,12 +68,12 @@ def _maze(path: Path, i: int, lava: NDArray[np.bool_], start: NDArray[Any], goal
     border[1:-1, 1:-1] = False
     if not lava[border].all():
         raise ValueError(f"{path}: `lava` of maze {i} must close the outer wall")
-    if not lava[::ROOMS, ::ROOMS].all():
+    if not lava[::PITCH, ::PITCH].all():
         raise ValueError(f"{path}: `lava` of maze {i} must cover the cells where walls meet, (0, 4), (4, 4) and so on")
     ends = {}
     for name, (row, column) in (("start", start.tolist()), ("goal", goal.tolist())):
         if not (0 <= row < SIZE and 0 <= column < SIZE) or room_of((row, column)) is None or lava[row, column]:
-            raise ValueError(f"{path}: `{name}` of maze {i} is ({row}, {column}), which is no free cell of a room")
+            raise ValueError(f"{path}: `{name}` of maze {i} is ({row}, {column}), which is not a free cell of a room")
         ends[name] = (row, column)
     if ends["start"] == ends["goal"]:
         raise ValueError(f"{path}: `goal` of maze {i} is its start")

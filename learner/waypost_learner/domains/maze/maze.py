@@ -1,7 +1,8 @@
-"""The maze and its geometry (paper, section 6.1 and appendix): 17 x 17 cells, 4 x 4 rooms of 3 x 3, lava walls.
+"""Defines the maze and its geometry (paper, section 6.1 and appendix).
 
-A cell is (row, column). Row and column lines 0, 4, 8, 12, 16 are walls; a free cell of an inner wall line is a *door*
-and belongs to no room. So a segment that leaves a room ends on the first cell of the next one, the door being behind.
+A maze has 17 x 17 cells: 4 x 4 rooms of 3 x 3 cells, with walls of lava. A cell is (row, column). Rows and columns
+0, 4, 8, 12 and 16 are the wall lines. A free cell of an inner wall line is a *door* and belongs to no room. So a
+segment that leaves a room ends on the first cell of the next room, one step behind the door.
 """
 
 from collections.abc import Iterator
@@ -11,8 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-SIZE = 17
-ROOMS = 4
+SIZE = 17  # cells per side
+ROOMS = 4  # rooms per side
+PITCH = 4  # cells from one wall line to the next
 
 Cell = tuple[int, int]
 Room = tuple[int, int]
@@ -20,29 +22,29 @@ Room = tuple[int, int]
 ACTIONS = ("up", "down", "left", "right")
 SUBGOALS = ("north", "south", "west", "east", "go_to_target")
 GO_TO_TARGET = 4
-# Action i moves where subgoal i leads: up is north, down is south, left is west, right is east.
+# Action i and subgoal i have the same direction: up is north, down is south, left is west, right is east.
 MOVES: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))
 
 
 @dataclass(frozen=True, eq=False)
 class Maze:
-    """One environment instance; `lava` is bool[17, 17]."""
+    """One environment instance."""
 
-    lava: NDArray[np.bool_]
+    lava: NDArray[np.bool_]  # [17, 17]
     start: Cell
     goal: Cell
 
     def to_json(self) -> dict[str, Any]:
-        """Return the JSON view the page draws and the oracle bot answers from."""
+        """Return the JSON view, which the web app draws and from which experts answer."""
         rows = ["".join("#" if lava else "." for lava in row) for row in self.lava]
         return {"rows": rows, "start": list(self.start), "goal": list(self.goal)}
 
     @classmethod
     def from_json(cls, view: Any) -> "Maze":
-        """Read `to_json` back.
+        """Return the maze of a JSON view.
 
         Raises:
-            ValueError: the view is no maze.
+            ValueError: the view does not describe a maze.
         """
         try:
             lava = np.array([[cell == "#" for cell in row] for row in view["rows"]], dtype=bool)
@@ -50,34 +52,38 @@ class Maze:
         except (KeyError, TypeError, ValueError) as error:
             raise ValueError(f"not a maze: {error!r}") from error
         if lava.shape != (SIZE, SIZE):
-            raise ValueError(f"a maze has {SIZE} rows of {SIZE} cells, this one is {lava.shape}")
+            raise ValueError(f"a maze must have {SIZE} rows of {SIZE} cells; this one has shape {lava.shape}")
         return maze
 
 
 def cell_of(view: Any) -> Cell:
-    """Read a state's JSON view, [row, column]."""
+    """Return the cell of a state's JSON view, [row, column].
+
+    Raises:
+        ValueError: the cell is outside the maze.
+    """
     row, column = view
     if not (0 <= row < SIZE and 0 <= column < SIZE):
-        raise ValueError(f"({row}, {column}) lies outside the maze")
+        raise ValueError(f"({row}, {column}) is outside the maze")
     return int(row), int(column)
 
 
 def moved(cell: Cell, action: int) -> Cell:
-    """Return the cell one step from `cell`."""
+    """Return the cell after one step from `cell`."""
     (row, column), (d_row, d_column) = cell, MOVES[action]
     return row + d_row, column + d_column
 
 
 def room_of(cell: Cell) -> Room | None:
-    """Return the room of a cell, or None in a wall line (a door or lava)."""
+    """Return the room of a cell, or None for a cell of a wall line (a door or lava)."""
     row, column = cell
-    if row % ROOMS == 0 or column % ROOMS == 0:
+    if row % PITCH == 0 or column % PITCH == 0:
         return None
-    return row // ROOMS, column // ROOMS
+    return row // PITCH, column // PITCH
 
 
 def room_beside(cell: Cell, direction: int) -> Room | None:
-    """Return the room on a side of a cell's room, or of a door; None where there is none."""
+    """Return the neighbor of a cell's room in a direction; for a door, the room behind it. None if there is no room."""
     room, (d_row, d_column) = room_of(cell), MOVES[direction]
     if room is None:
         return room_of(moved(cell, direction))
@@ -86,43 +92,48 @@ def room_beside(cell: Cell, direction: int) -> Room | None:
 
 
 def wall_beside(cell: Cell, direction: int) -> list[Cell]:
-    """Return the three cells of the wall on a side of a cell's room; a door's own wall is beside it on two sides."""
+    """Return the three possible door cells of the wall that bounds a cell's room in a direction.
+
+    For a door, this is the door's own wall in the two directions that lead through it, and [] in the other two.
+    """
     line, along = cell if direction in (0, 1) else cell[::-1]
-    if along % ROOMS == 0:  # a door in a wall that runs the other way
+    if along % PITCH == 0:  # a door whose wall is parallel to the direction
         return []
-    wall = line if line % ROOMS == 0 else ROOMS * (line // ROOMS + direction % 2)
-    places = [(wall, ROOMS * (along // ROOMS) + k) for k in (1, 2, 3)]
+    wall = line if line % PITCH == 0 else PITCH * (line // PITCH + direction % 2)
+    places = [(wall, PITCH * (along // PITCH) + k) for k in (1, 2, 3)]
     return places if direction in (0, 1) else [place[::-1] for place in places]
 
 
 def walls() -> Iterator[tuple[Room, Room, tuple[Cell, ...]]]:
-    """Yield the 24 walls between neighbouring rooms: both rooms, and the three cells where a door can be."""
+    """Yield the 24 walls between neighboring rooms: both rooms, and the three cells where a door can be."""
     for i in range(ROOMS):
         for j in range(ROOMS):
-            row, column = 4 * i, 4 * j
+            row, column = PITCH * i, PITCH * j
             if i + 1 < ROOMS:
-                yield (i, j), (i + 1, j), tuple((row + 4, column + k) for k in (1, 2, 3))
+                yield (i, j), (i + 1, j), tuple((row + PITCH, column + k) for k in (1, 2, 3))
             if j + 1 < ROOMS:
-                yield (i, j), (i, j + 1), tuple((row + k, column + 4) for k in (1, 2, 3))
+                yield (i, j), (i, j + 1), tuple((row + k, column + PITCH) for k in (1, 2, 3))
 
 
 def closed_rooms() -> NDArray[np.bool_]:
     """Return the lava of a maze without doors, bool[17, 17]."""
-    line: NDArray[np.bool_] = np.arange(SIZE) % ROOMS == 0
+    line: NDArray[np.bool_] = np.arange(SIZE) % PITCH == 0
     return np.logical_or.outer(line, line)
 
 
 def distances_from(lava: NDArray[np.bool_], source: Cell) -> NDArray[np.int16]:
-    """Return int16[17, 17], the steps from `source` to each cell, -1 where no path leads (breadth-first)."""
+    """Return int16[17, 17], the steps from `source` to each cell, -1 if there is no path (breadth-first search)."""
     if lava[source]:
         return np.full((SIZE, SIZE), -1, np.int16)
     unseen, blocked = -1, -2
-    distances = np.where(lava, blocked, unseen).ravel().tolist()  # a list, by cell number, is quicker than an array
+    distances = (
+        np.where(lava, blocked, unseen).ravel().tolist()
+    )  # a list indexed by cell number is faster than an array
     reached = [SIZE * source[0] + source[1]]
     distances[reached[0]] = 0
     for cell in reached:
-        for neighbour in (cell - SIZE, cell + SIZE, cell - 1, cell + 1):
-            if distances[neighbour] == unseen:
-                distances[neighbour] = distances[cell] + 1
-                reached.append(neighbour)
+        for neighbor in (cell - SIZE, cell + SIZE, cell - 1, cell + 1):
+            if distances[neighbor] == unseen:
+                distances[neighbor] = distances[cell] + 1
+                reached.append(neighbor)
     return np.array(distances, np.int16).clip(min=-1).reshape(SIZE, SIZE)

@@ -1,7 +1,7 @@
-"""What labels and demonstrations of a maze say of other tasks on the same way.
+"""Derives labels and segments of other tasks on the same path from the labels and demonstrations of a maze.
 
-None of it is the paper's, and the `paper` preset uses none. It takes for granted that ways can be gone back, and that
-parts of shortest ways are shortest.
+Relabeling is not part of the paper, and the `paper` preset does not use it. It assumes that paths are reversible and
+that parts of shortest paths are shortest paths.
 """
 
 from collections.abc import Iterator, Sequence
@@ -13,87 +13,98 @@ from numpy.typing import NDArray
 from waypost.domain import Relabeled
 from waypost.trajectory import Action, Segment, State, Subgoal, Trajectory
 from waypost_learner.domains.maze.env import AGENT, LAVA, TARGET, TRAIL
-from waypost_learner.domains.maze.maze import GO_TO_TARGET, MOVES, ROOMS, Cell, Room, cell_of, room_beside, room_of
+from waypost_learner.domains.maze.maze import GO_TO_TARGET, MOVES, PITCH, Cell, Room, cell_of, room_beside, room_of
 
-BACK = 1  # flips the number of a direction to that of its opposite
+OPPOSITE = 1  # direction ^ OPPOSITE is the opposite direction
 
 
 def relabeled(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Iterator[Relabeled]:
-    """Yield what is right on the way from each place of a labeled way to each other one, there and back.
+    """Yield labels of other tasks: from each place on a labeled path to each other place on it, in both directions.
 
-    A part of a shortest way is a shortest way, and so is the way back. An episode that strayed from it, but for rooms
-    that the expert found wrong, says what is no longer than the way it went.
+    A part of a shortest path is a shortest path, and so is its reverse. If the episode took detours within rooms, a
+    label's path may not be the shortest, but it is never longer than the learner's path.
     """
     lava = trajectory[0].start.observation[1] == LAVA
-    for cells, subgoals in _ways(trajectory, good_subgoals, lava):
+    for cells, subgoals in _labeled_paths(trajectory, good_subgoals, lava):
         for i, here in enumerate(cells):
             for j, target in enumerate(cells):
                 if j != i:
-                    yield _picture(lava, here, target), subgoals[i] if j > i else subgoals[i - 1] ^ BACK
-            for target in _others(lava, here):
-                yield _picture(lava, here, target), GO_TO_TARGET
+                    yield _start_observation(lava, here, target), subgoals[i] if j > i else subgoals[i - 1] ^ OPPOSITE
+            for target in _other_cells_of_room(lava, here):
+                yield _start_observation(lava, here, target), GO_TO_TARGET
 
 
 def retraced(demonstration: Trajectory) -> Iterator[Segment]:
-    """Yield the way of a demonstration gone back, room by room, and the way to each of its cells as to a target.
+    """Yield segments of other tasks: the way back, room by room, and the way to each cell as if it were the target.
 
-    A cell is a target of who has come into its room, there and back. The trail is of all that was gone until then.
+    A cell is used as a target from where the path enters its room, in both directions. The trail in the observations
+    contains the path up to the current cell.
     """
     lava = demonstration[0].start.observation[1] == LAVA
-    there = [cell_of(demonstration[0].start.view)]
-    there += [cell_of(state.view) for segment in demonstration for state in segment.states[1:]]
-    if lava[there[-1]]:
-        there.pop()
-    back = there[::-1]
-    for stay, beyond in pairwise(_stays(back)):
-        yield from _gone(lava, back[: beyond[0] + 1], stay[0], back[-1], _action(back, beyond[0]))
-    for way in (there, back):
-        for entered, *others in _stays(way):
+    forward = [cell_of(demonstration[0].start.view)]
+    forward += [cell_of(state.view) for segment in demonstration for state in segment.states[1:]]
+    if lava[forward[-1]]:
+        forward.pop()
+    backward = forward[::-1]
+    for visit, beyond in pairwise(_room_visits(backward)):
+        yield from _segment_to(lava, backward[: beyond[0] + 1], visit[0], backward[-1], _action_at(backward, beyond[0]))
+    for path in (forward, backward):
+        for entered, *others in _room_visits(path):
             for cell in others:
-                yield from _gone(lava, way[: cell + 1], entered, way[cell], GO_TO_TARGET)
+                yield from _segment_to(lava, path[: cell + 1], entered, path[cell], GO_TO_TARGET)
 
 
-def _stays(way: Sequence[Cell]) -> list[list[int]]:
-    """Return where on a way it is in its first room, in its second, and so on."""
-    inside = [i for i, cell in enumerate(way) if room_of(cell) is not None]
-    return [list(stay) for _, stay in groupby(inside, lambda i: room_of(way[i]))]
+def _room_visits(path: Sequence[Cell]) -> list[list[int]]:
+    """Return the indices of the path's cells in its first room, in its second room, and so on."""
+    inside = [i for i, cell in enumerate(path) if room_of(cell) is not None]
+    return [list(visit) for _, visit in groupby(inside, lambda i: room_of(path[i]))]
 
 
-def _gone(
-    lava: NDArray[np.bool_], way: Sequence[Cell], first: int, target: Cell, subgoal: Subgoal
+def _segment_to(
+    lava: NDArray[np.bool_], path: Sequence[Cell], first: int, target: Cell, subgoal: Subgoal
 ) -> Iterator[Segment]:
-    """Yield the last part of a way to a target, as a segment; nothing if the target lies on the way: it ends there."""
-    if target in way[:-1]:
+    """Yield the path from its cell `first` on as one segment toward a subgoal, in a maze with this target.
+
+    Yield nothing if the path passes the target before its end, because the episode would end there.
+    """
+    if target in path[:-1]:
         return
-    states, picture = [], _picture(lava, way[0], target)
-    for i, cell in enumerate(way):
+    states, picture = [], _start_observation(lava, path[0], target)
+    for i, cell in enumerate(path):
         picture[0], picture[1][cell] = 0, TRAIL
         picture[0][cell] = AGENT
         if i >= first:
             states.append(State(picture.copy(), list(cell)))
-    actions = tuple(_action(way, i) for i in range(first + 1, len(way)))
+    actions = tuple(_action_at(path, i) for i in range(first + 1, len(path)))
     yield Segment(subgoal, tuple(states), actions, terminated=True)
 
 
-def _action(way: Sequence[Cell], i: int) -> Action:
-    """Return the step to the i-th cell of a way."""
-    (row, column), (to_row, to_column) = way[i - 1], way[i]
+def _action_at(path: Sequence[Cell], i: int) -> Action:
+    """Return the action that leads to the i-th cell of a path."""
+    (row, column), (to_row, to_column) = path[i - 1], path[i]
     return MOVES.index((to_row - row, to_column - column))
 
 
-def _ways(
+def _labeled_paths(
     trajectory: Trajectory, good_subgoals: Sequence[Subgoal], lava: NDArray[np.bool_]
 ) -> Iterator[tuple[list[Cell], list[Subgoal]]]:
-    """Yield the cells where good subgoals began that were carried out one after the other, with the last one's end."""
+    """Yield each sequence of successive good subgoals that were reached: the cells where they began, and the subgoals.
+
+    The last cell of a sequence is where its last subgoal ended.
+    """
     cells: list[Cell] = []
     subgoals: list[Subgoal] = []
     for segment, good in zip(trajectory, good_subgoals, strict=True):
         here, there = cell_of(segment.start.view), cell_of(segment.states[-1].view)
-        if room_of(here) is None:  # chosen in a door, by mistake
+        if room_of(here) is None:  # the learner chose a subgoal in a door by mistake
             continue
         cells.append(here)
         arrived = room_of(there) is not None and not lava[there]
-        if segment.subgoal == good != GO_TO_TARGET and arrived and _rooms(segment)[1:] == [room_beside(here, good)]:
+        if (
+            segment.subgoal == good != GO_TO_TARGET
+            and arrived
+            and _rooms_visited(segment)[1:] == [room_beside(here, good)]
+        ):
             subgoals.append(good)
         else:
             yield cells, subgoals
@@ -102,21 +113,21 @@ def _ways(
         yield [*cells, there], subgoals
 
 
-def _rooms(segment: Segment) -> list[Room | None]:
-    """Return the rooms that a segment went through, in order; where lava is before a door, it may be a way around."""
-    way = [cell_of(state.view) for state in segment.states]
-    return [room_of(way[first]) for first, *_ in _stays(way)]
+def _rooms_visited(segment: Segment) -> list[Room | None]:
+    """Return the rooms of a segment in order. If lava blocks a door, the path may lead through other rooms."""
+    path = [cell_of(state.view) for state in segment.states]
+    return [room_of(path[first]) for first, *_ in _room_visits(path)]
 
 
-def _others(lava: NDArray[np.bool_], here: Cell) -> list[Cell]:
+def _other_cells_of_room(lava: NDArray[np.bool_], here: Cell) -> list[Cell]:
     """Return the other free cells of a cell's room."""
-    top, left = (ROOMS * (place // ROOMS) for place in here)
+    top, left = (PITCH * (place // PITCH) for place in here)
     room = [(top + row, left + column) for row in (1, 2, 3) for column in (1, 2, 3)]
     return [cell for cell in room if cell != here and not lava[cell]]
 
 
-def _picture(lava: NDArray[np.bool_], agent: Cell, target: Cell) -> NDArray[np.float32]:
-    """Return the observation of an episode that begins."""
+def _start_observation(lava: NDArray[np.bool_], agent: Cell, target: Cell) -> NDArray[np.float32]:
+    """Return the first observation of an episode, float32[3, 17, 17]."""
     picture = np.zeros((3, *lava.shape), np.float32)
     picture[1][lava] = LAVA
     picture[1][agent] = TRAIL

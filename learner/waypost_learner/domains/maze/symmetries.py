@@ -1,4 +1,4 @@
-"""The eight ways to turn and mirror a maze, and what becomes of directions."""
+"""Defines the eight rotations and reflections of a maze, and their effect on subgoals and actions."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,12 +8,12 @@ from waypost_learner.domains.maze.maze import GO_TO_TARGET, MOVES
 
 
 def symmetries() -> tuple[Symmetry, ...]:
-    """Return the seven symmetries of the square beside the identity."""
+    """Return the seven symmetries of the square, without the identity."""
     return tuple(_symmetry(turns, mirror) for mirror in (False, True) for turns in range(4) if turns or mirror)
 
 
 def _symmetry(turns: int, mirror: bool) -> Symmetry:
-    """Mirror left and right (if so), then turn a quarter counterclockwise `turns` times."""
+    """Return the symmetry: mirror left and right (if `mirror`), then `turns` quarter turns counterclockwise."""
 
     def observe(observation: NDArray[np.float32]) -> NDArray[np.float32]:
         picture = observation[:, :, ::-1] if mirror else observation

@@ -1,4 +1,4 @@
-"""Runs in one CSV, compressed: a row per episode and run, from which every figure can be drawn again."""
+"""Reads and writes `runs.csv.gz`, which has one row per run and episode. All figures can be drawn from this file."""
 
 import csv
 import gzip
@@ -19,11 +19,11 @@ FILE = "runs.csv.gz"
 _CONFIG = tuple(field.name for field in fields(TrainConfig))
 _CURVES = ("episode", "test_success", "success_rate", "hi_labels", "lo_samples", "learner_seconds", "lo_cost")
 COLUMNS = (*_CONFIG, *_CURVES, *KINDS)
-"""The configuration, what the learner reported, units by kind; what is not there is an empty field."""
+"""The configuration, the learner's reports, and the cost in units by kind of query. Missing values are empty fields."""
 
 
 def write(folder: Path, runs: Iterable[RunCurves]) -> Path:
-    """Write runs to `folder`; the same runs make the same file."""
+    """Write `runs.csv.gz` into `folder` and return its path. The same runs give the same file."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(COLUMNS)
@@ -32,16 +32,16 @@ def write(folder: Path, runs: Iterable[RunCurves]) -> Path:
         numbers = [*(getattr(run, name) for name in _CURVES), *(run.units[kind] for kind in KINDS)]
         rows.writerows([*config, *map(_number, row)] for row in zip(*numbers, strict=True))
     path = folder / FILE
-    with path.open("wb") as file, gzip.GzipFile("", "wb", 9, file, mtime=0) as packed:  # no name, no time
+    with path.open("wb") as file, gzip.GzipFile("", "wb", 9, file, mtime=0) as packed:  # without name and time
         packed.write(text.getvalue().encode())
     return path
 
 
 def read(folder: Path) -> dict[TrainConfig, RunCurves]:
-    """Read the runs of `folder`.
+    """Return the runs in `runs.csv.gz` of `folder`.
 
     Raises:
-        ValueError: there is no such file, or it is no CSV of runs; the message names the line.
+        ValueError: the file does not exist or is not valid; the message names the column or line.
     """
     path = folder / FILE
     if not path.is_file():
@@ -59,7 +59,7 @@ def read(folder: Path) -> dict[TrainConfig, RunCurves]:
 
 def _check_header(path: Path, header: list[str]) -> None:
     unknown = [name for name in header if name not in COLUMNS]
-    if unknown:  # a value that fixes a run, of a newer version, must not be overlooked
+    if unknown:  # a newer version may have added a configuration value: ignoring it would merge different runs
         raise ValueError(f"{path} has a column {unknown[0]!r}, which this version of Waypost does not know")
     lacking = [name for name in (*_CURVES, *KINDS, "algorithm") if name not in header]
     if lacking:
@@ -96,7 +96,7 @@ def _curves(config: TrainConfig, rows: list[Mapping[str, float]]) -> RunCurves:
 
 
 def _number(value: float) -> str:
-    """Return a number's shortest text that is read as the same number."""
+    """Return the shortest text that reads back as the same number."""
     if np.isnan(value):
         return ""
     return str(int(value)) if value == int(value) else repr(float(value))
@@ -107,7 +107,7 @@ def _written(value: Any) -> str:
 
 
 def _reader(hint: Any) -> Callable[[str], Any]:
-    """Return what makes a value of a type, or of one that may be None, from its text."""
+    """Return a function that reads a value of a type from its text; for an optional type, "" gives None."""
 
     def read_truth(text: str) -> bool:
         if text not in {"True", "False"}:

@@ -1,4 +1,4 @@
-"""A run's curves as arrays, and the runs of a group."""
+"""Defines the data of figures: a run's curves as arrays, and the runs of a group by series."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,18 +20,18 @@ LO_LABELS: tuple[Kind, ...] = ("label_lo", "label_full")
 
 @dataclass(frozen=True, eq=False)
 class RunCurves:
-    """One run, a row per episode; every array is float64[n], and sums are cumulative.
+    """The curves of one run. Every array is float64[n] with one row per episode; sums are cumulative.
 
     Args:
-        config: what fixes the run.
-        episode: numbers, from 0.
+        config: the configuration of the run.
+        episode: episode numbers, from 0.
         test_success: 1 passed, 0 failed, nan not tested.
-        success_rate: over the trailing 100 tests, or over those there are; nan before the first.
-        hi_labels: the size of D_HI.
-        lo_samples: LO-level steps taken in training rollouts.
-        learner_seconds: the learner's wall time, to a tenth.
-        lo_cost: units spent on LO labels, those of demonstrations included.
-        units: units spent by kind of query.
+        success_rate: success rate over the trailing 100 tests (fewer at the start), 0 to 1; nan before the first test.
+        hi_labels: size of D_HI.
+        lo_samples: LO-level steps in training rollouts.
+        learner_seconds: the learner's wall time in seconds, rounded to a tenth.
+        lo_cost: cost of LO labels in units, including those of demonstrations.
+        units: cost in units, by kind of query.
     """
 
     config: TrainConfig
@@ -46,7 +46,7 @@ class RunCurves:
 
     @classmethod
     def of(cls, config: TrainConfig, curves: wire.Curves) -> "RunCurves":
-        """Return the curves of a run as a server gives them."""
+        """Convert the curves of the server's API."""
         return cls(
             config=config,
             episode=_column(curves.episode),
@@ -61,7 +61,7 @@ class RunCurves:
 
     @property
     def episodes(self) -> Column:
-        """How many episodes there were, at each row."""
+        """The number of episodes at each row, from 1."""
         return self.episode + 1
 
     @property
@@ -70,12 +70,12 @@ class RunCurves:
         return len(self.episode) >= self.config.episodes
 
     def cost(self, labels_only: bool) -> Column:
-        """Return the units spent; of labels alone, as the authors count, or of inspections too."""
+        """Return the cumulative expert cost in units; with `labels_only` (as the authors count) without inspections."""
         return self._sum(kind for kind in KINDS if not (labels_only and kind in INSPECTIONS))
 
     @property
     def lo_label_cost(self) -> Column:
-        """The units spent on LO labels without those of demonstrations."""
+        """The cumulative cost of LO labels in units, without those of demonstrations."""
         return self._sum(LO_LABELS)
 
     def _sum(self, kinds: Iterable[Kind]) -> Column:
@@ -84,14 +84,14 @@ class RunCurves:
 
 @dataclass(frozen=True)
 class Comparison:
-    """The series of a group that have runs, each with its runs in the order of seeds."""
+    """The series of a group that have runs; each with its runs, ordered by seed."""
 
     group: Group
     runs: Mapping[Series, Sequence[RunCurves]]
 
     @classmethod
     def of(cls, group: Group, seeds: Sequence[int], found: Mapping[TrainConfig, RunCurves]) -> "Comparison":
-        """Choose a group's runs among those that were found."""
+        """Select a group's runs from all `found` runs."""
         chosen = {each: [found[one] for one in each.runs(seeds) if one in found] for each in group.series}
         return cls(group, {series: runs for series, runs in chosen.items() if runs})
 

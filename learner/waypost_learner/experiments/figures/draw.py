@@ -1,4 +1,4 @@
-"""The figures, a function each: lines and bands are our runs, markers what was published."""
+"""Draws the figures, one function each. Lines and bands show our runs, markers show published numbers."""
 
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -17,8 +17,8 @@ from waypost_learner.experiments.plan import Series
 Value = Callable[[RunCurves], Column]
 Points = Callable[[Published], Iterator[tuple[float, float]]]
 
-_LINES = "Lines: ours."
-_MARKERS = "Lines: ours. Markers: published medians."
+_LINES = "Lines: our runs."
+_MARKERS = "Lines: our runs. Markers: published medians."
 
 
 def success_by_episode(comparison: Comparison) -> Figure:
@@ -27,14 +27,14 @@ def success_by_episode(comparison: Comparison) -> Figure:
 
 
 def success_by_cost(comparison: Comparison) -> Figure:
-    """Draw the success rate against all that was spent on the expert."""
+    """Draw the success rate against the expert cost."""
     labels_only = comparison.group.labels_only
-    x = f"Expert cost, units{' (labels alone)' if labels_only else ''}"
+    x = f"Expert cost, units{' (labels only)' if labels_only else ''}"
     return _success(comparison, "Success against expert cost", x, lambda run: run.cost(labels_only), _points_by_cost)
 
 
 def success_by_log_cost(comparison: Comparison) -> Figure:
-    """Draw the success rate against all that was spent on the expert, from hundreds of units to ten thousands."""
+    """Draw the success rate against the expert cost on a logarithmic axis."""
     figure, (axes,) = frame(comparison, "Success against expert cost")
     _success_curves(axes, comparison, lambda run: run.cost(comparison.group.labels_only), _no_points)
     look.log_axis(axes.xaxis, "Expert cost, units (logarithmic)")
@@ -43,17 +43,17 @@ def success_by_log_cost(comparison: Comparison) -> Figure:
 
 
 def success_by_lo_cost(comparison: Comparison) -> Figure:
-    """Draw the success rate against what was spent on LO-level labels."""
-    x = "LO-level expert cost, units (actions and terminations, those of demonstrations too)"
+    """Draw the success rate against the cost of LO-level labels, including those of demonstrations."""
+    x = "LO-level expert cost, units (actions and terminations, including demonstrations)"
     title = "Success against LO-level expert cost"
     return _success(comparison, title, x, lambda run: run.lo_cost, _points_by_lo_cost)
 
 
 def cost_by_kind(comparison: Comparison) -> Figure:
-    """Draw what hg-DAgger spent on each kind of question, after each episode."""
+    """Draw hg-DAgger's cumulative cost of each kind of query by episode."""
     series, runs = _first(comparison)
     group = comparison.group
-    figure, (axes,) = frame(comparison, f"Expert cost of {series.label} by kind of question")
+    figure, (axes,) = frame(comparison, f"Expert cost of {series.label} by kind of query")
     entries = []
     for kind in KINDS:
         label, style = look.KINDS[kind]
@@ -68,13 +68,13 @@ def cost_by_kind(comparison: Comparison) -> Figure:
     count_axis(axes.xaxis, "Episodes")
     count_axis(axes.yaxis, "Cumulative expert cost, units")
     entries.append(("all labels" if group.labels_only else "all", look.SUM))
-    explanation = "Lines: ours; all labels is without inspections. Marker: all labels, published median."
+    explanation = 'Lines: our runs. "all labels" excludes inspections. Marker: published median of all labels.'
     legend(figure, entries, explanation if cost is not None else _LINES, markers=False)
     return figure
 
 
 def lo_cost_by_episode(comparison: Comparison) -> Figure:
-    """Draw what was spent on LO-level labels after the demonstrations."""
+    """Draw the cumulative cost of LO-level labels by episode, without demonstrations."""
     figure, (axes,) = frame(comparison, "LO-level expert cost without demonstrations")
     for series, runs in comparison.runs.items():
         tracks = [Track(run.episodes, run.lo_label_cost, run.complete) for run in runs]
@@ -86,13 +86,13 @@ def lo_cost_by_episode(comparison: Comparison) -> Figure:
 
 
 def progress_by_sample(comparison: Comparison) -> Figure:
-    """Draw hg-DAgger/Q's success rate and its HI labels against LO samples."""
+    """Draw hg-DAgger/Q's success rate and its number of HI labels against LO samples."""
     series, runs = _first(comparison)
     figure, (above, below) = frame(comparison, f"{series.label}: success and HI labels", panels=2)
     style = look.style_of(series)
     curve(above, [Track(run.lo_samples, 100 * run.success_rate, run.complete) for run in runs], style)
     curve(below, [Track(run.lo_samples, run.hi_labels, run.complete) for run in runs], style)
-    percent_axis(above, "Success, trailing 100")
+    percent_axis(above, "Success (trailing 100)")
     count_axis(below.yaxis, "HI labels, units")
     count_axis(below.xaxis, "LO samples")
     legend(figure, [(series.label, style)], _LINES, markers=False)
@@ -108,7 +108,7 @@ def success_by_sample(comparison: Comparison) -> Figure:
     for series, success in levels.items():
         look.level(axes, success, look.style_of(series), f"{series.label} {success:g}%")
     count_axis(axes.xaxis, "LO samples")
-    _close(figure, comparison, f"{_LINES} Thin dotted lines: where the published curves flatten." if levels else _LINES)
+    _close(figure, comparison, f"{_LINES} Thin dotted lines: final success of published curves." if levels else _LINES)
     return figure
 
 
@@ -122,13 +122,13 @@ FIGURES: dict[str, Callable[[Comparison], Figure]] = {
     "progress-by-sample": progress_by_sample,
     "success-by-sample": success_by_sample,
 }
-"""By the names that a plan's groups give them."""
+"""The drawing functions, by the figure names in `plan.Group.figures`."""
 
-_OF_THE_FIRST = frozenset({"cost-by-kind", "progress-by-sample"})  # figures of a group's first series alone
+_OF_THE_FIRST = frozenset({"cost-by-kind", "progress-by-sample"})  # these figures show only a group's first series
 
 
 def figures_of(comparison: Comparison) -> Iterator[tuple[str, Figure]]:
-    """Yield a group's figures with their names, but those of a series that has no runs."""
+    """Yield a group's figures with their names. Skip figures of the first series if that series has no runs."""
     group = comparison.group
     for name in group.figures:
         if group.series[0] in comparison.runs or name not in _OF_THE_FIRST:
@@ -136,7 +136,7 @@ def figures_of(comparison: Comparison) -> Iterator[tuple[str, Figure]]:
 
 
 def save(figure: Figure, folder: Path, name: str) -> list[Path]:
-    """Write a figure as SVG and PNG; the same figure makes the same files."""
+    """Write a figure as SVG and PNG, and return both paths. The same figure gives the same files."""
     paths = [folder / f"{name}.svg", folder / f"{name}.png"]
     with rc_context(look.RC):
         figure.savefig(paths[0], metadata={"Date": None})
@@ -144,7 +144,7 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
     return paths
 
 
-# --- what they are made of
+# --- helpers
 
 
 def _first(comparison: Comparison) -> tuple[Series, Sequence[RunCurves]]:
@@ -153,7 +153,7 @@ def _first(comparison: Comparison) -> tuple[Series, Sequence[RunCurves]]:
 
 
 def _success(comparison: Comparison, title: str, x: str, value: Value, points: Points) -> Figure:
-    """Draw every series' success rate against a value of its runs."""
+    """Return a figure of every series' success rate against a value of its runs."""
     figure, (axes,) = frame(comparison, title)
     marked = _success_curves(axes, comparison, value, points)
     count_axis(axes.xaxis, x)
@@ -162,7 +162,7 @@ def _success(comparison: Comparison, title: str, x: str, value: Value, points: P
 
 
 def _success_curves(axes: Axes, comparison: Comparison, x: Value, points: Points) -> bool:
-    """Draw every series' success rate against x with its published points; return whether there were any."""
+    """Draw every series' success rate against x, and its published points. Return whether it drew any points."""
     marked = False
     for series, runs in comparison.runs.items():
         style = look.style_of(series)
@@ -170,7 +170,7 @@ def _success_curves(axes: Axes, comparison: Comparison, x: Value, points: Points
         for at, success in points(published(comparison.group, series)):
             point(axes, at, 100 * success, style, f"{series.label} {at:g} {100 * success:g}%")
             marked = True
-    percent_axis(axes, "Success on unseen mazes, trailing 100")
+    percent_axis(axes, "Success on unseen mazes (trailing 100)")
     return marked
 
 

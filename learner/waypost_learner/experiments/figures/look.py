@@ -1,4 +1,4 @@
-"""How figures look: colors, lines, markers, and a frame that says what is on its axes."""
+"""Defines the look of the figures: colors, lines, markers, titles, legends and axes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from waypost_learner.experiments.figures.statistics import Track, band
 from waypost_learner.experiments.plan import Series
 
 RC: dict[Any, Any] = {
-    "font.family": "DejaVu Sans",  # comes with matplotlib, so a figure is the same everywhere
+    "font.family": "DejaVu Sans",  # part of matplotlib, so figures are identical on every machine
     "font.size": 10,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -25,21 +25,21 @@ RC: dict[Any, Any] = {
     "grid.color": "0.9",
     "axes.axisbelow": True,
     "legend.frameon": False,
-    "svg.hashsalt": "waypost",  # the same figure is the same file
+    "svg.hashsalt": "waypost",  # element ids are not random, so the same figure gives the same file
 }
 SIZE, DPI = (8.0, 5.2), 120  # inches, dots per inch
 
 
 @dataclass(frozen=True)
 class Style:
-    """How a curve is told from others: by color, and without color by its line and its marker."""
+    """The look of one curve. Line and marker also identify it for readers who cannot see the color."""
 
     color: str
     line: Any  # matplotlib's dashes
     marker: str
 
 
-# Okabe and Ito's colors, which are told apart with every kind of color vision.
+# The palette of Okabe and Ito: its colors differ for every kind of color vision.
 _BLACK, _ORANGE, _SKY, _GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
 _BLUE, _VERMILLION, _PURPLE = "#0072B2", "#D55E00", "#CC79A7"
 _DASHED, _DOTTED, _DASH_DOT, _LONG = (0, (5, 2)), (0, (1, 1.2)), (0, (6, 2, 1, 2)), (0, (9, 2, 1, 2, 1, 2))
@@ -71,7 +71,7 @@ SUM = Style(_BLACK, "solid", "o")
 
 
 def style_of(series: Series) -> Style:
-    """Return how a series is drawn, the same in every figure."""
+    """Return the style of a series, which is the same in all figures."""
     if series.beside:
         return _BESIDE
     algorithm = series.config.algorithm
@@ -81,7 +81,10 @@ def style_of(series: Series) -> Style:
 
 
 def frame(comparison: Comparison, title: str, panels: int = 1) -> tuple[Figure, list[Axes]]:
-    """Return a figure with a title, what is counted and of how many runs, and panels one above the other."""
+    """Return a figure with `panels` axes, one above the other.
+
+    Its head has the title, the group's title, the number of runs, and how episodes and costs are counted.
+    """
     group = comparison.group
     with rc_context(RC):
         figure = Figure(SIZE, layout=ConstrainedLayoutEngine(rect=(0.01, 0.01, 0.98, 0.83)))
@@ -101,7 +104,7 @@ def _runs(comparison: Comparison) -> str:
 
 
 def curve(axes: Axes, tracks: Sequence[Track], style: Style) -> None:
-    """Draw the median of runs as a line, and their range as a band around it."""
+    """Draw the median of the runs as a line, and their range as a band."""
     found = band(tracks)
     if found is None:
         return
@@ -111,7 +114,7 @@ def curve(axes: Axes, tracks: Sequence[Track], style: Style) -> None:
 
 
 def point(axes: Axes, x: float, y: float, style: Style, gid: str) -> None:
-    """Draw a published number."""
+    """Draw a published number as a marker; `gid` becomes part of its id in the SVG."""
     (marker,) = axes.plot(
         x, y, style.marker, color=style.color, markersize=8, markeredgecolor="white", markeredgewidth=1.2, zorder=5
     )
@@ -119,13 +122,13 @@ def point(axes: Axes, x: float, y: float, style: Style, gid: str) -> None:
 
 
 def level(axes: Axes, y: float, style: Style, gid: str) -> None:
-    """Draw a published number that belongs to no point of the x axis: the level at which a curve flattens."""
+    """Draw the final success rate of a published curve as a thin horizontal line."""
     line = axes.axhline(y, color=style.color, linewidth=1.0, linestyle=(0, (2, 4)))
     line.set_gid(f"published {gid}")
 
 
 def legend(figure: Figure, entries: Sequence[tuple[str, Style]], explanation: str, markers: bool) -> None:
-    """Say below the axes what is what."""
+    """Draw a legend below the axes, with an explanation as its title."""
     handles = [
         Line2D(
             [], [], color=s.color, linestyle=s.line, linewidth=1.8, marker=s.marker if markers else None, label=label
@@ -145,26 +148,26 @@ def legend(figure: Figure, entries: Sequence[tuple[str, Style]], explanation: st
 
 
 def percent_axis(axes: Axes, of: str) -> None:
-    """Let y be a success rate."""
+    """Format the y axis for a success rate in percent, with the label `of`."""
     axes.set_ylim(-2, 102)
     axes.yaxis.set_major_formatter(StrMethodFormatter("{x:.0f}%"))
     axes.set_ylabel(of)
 
 
 def count_axis(axis: Any, what: str) -> None:
-    """Let an axis count something, from 0."""
+    """Format the ticks of an axis as whole numbers, and set its label."""
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
     axis.set_label_text(what)
 
 
 def log_axis(axis: Any, what: str) -> None:
-    """Let the x axis count something from 100 on, ten times as much at equal distances."""
+    """Make the x axis logarithmic from 100 on, and set its label."""
     axis.axes.set_xscale("log")
     axis.axes.set_xlim(left=100)
     count_axis(axis, what)
 
     def between(value: float, _: int | None) -> str:
         low, high = axis.get_view_interval()
-        return f"{value:,.0f}" if high < 10 * low else ""  # there is room for them
+        return f"{value:,.0f}" if high < 10 * low else ""  # only a short axis has room for minor labels
 
     axis.set_minor_formatter(FuncFormatter(between))

@@ -1,4 +1,4 @@
-"""`waypost figures`: runs are gathered, what is missing is named, and all that can be drawn is drawn."""
+"""Does the work of `waypost figures`: merges the runs of several sources, lists the missing ones, writes all files."""
 
 import shlex
 from collections.abc import Iterable, Mapping, Sequence
@@ -16,15 +16,15 @@ Found = Mapping[TrainConfig, RunCurves]
 
 @dataclass(frozen=True)
 class Request:
-    """What is drawn, and where it goes.
+    """The options of `waypost figures`.
 
     Args:
-        figure: what `--figure` can name.
-        seeds: a run of each series with each.
+        figure: a name in `plan.FIGURES`.
+        seeds: the seeds of every series.
         out: the folder for figures and tables.
-        report: the Markdown document to write; none if None.
-        store: the store to name in the command that makes the runs.
-        archives: the folders to name in it, whose runs need not be made.
+        report: the Markdown document to write; None for no document.
+        store: the store named in the printed `waypost sweep` command.
+        archives: the `--from` folders named in that command; it does not train their runs again.
     """
 
     figure: str
@@ -39,18 +39,18 @@ class Request:
         """The groups to draw.
 
         Raises:
-            ValueError: there is no figure of that name.
+            ValueError: no figure has this name.
         """
         return plan.find_figure(self.figure)
 
     @property
     def wanted(self) -> list[TrainConfig]:
-        """Every run there should be."""
+        """The configurations of all runs that the figure needs."""
         return plan.runs_of(self.groups, self.seeds)
 
 
 def merge(sources: Iterable[Found]) -> Found:
-    """Return the runs of several sources; of one that several have, what got furthest, or what came first."""
+    """Return the runs of all sources. If several have a run, take the one with most episodes, else the first."""
     merged: dict[TrainConfig, RunCurves] = {}
     for source in sources:
         for config, run in source.items():
@@ -60,12 +60,12 @@ def merge(sources: Iterable[Found]) -> Found:
 
 
 def missing(request: Request, found: Found) -> list[TrainConfig]:
-    """Return the wanted runs that are not there, or not whole."""
+    """Return the needed runs that are missing or incomplete."""
     return [config for config in request.wanted if config not in found or not found[config].complete]
 
 
 def describe(config: TrainConfig, found: Found) -> str:
-    """Name a missing run by what tells it from the others of the plan, and how far it is."""
+    """Return a text that identifies a missing run within the plan, with its number of finished episodes."""
     run = found.get(config)
     return ", ".join(
         [
@@ -76,27 +76,27 @@ def describe(config: TrainConfig, found: Found) -> str:
             *([] if config.preset == "paper" else [config.preset]),
             *([] if config.values is None else [config.values]),
             f"seed {config.seed}",
-            "not begun" if run is None else f"{len(run.episode)} of {config.episodes} episodes",
+            "not started" if run is None else f"{len(run.episode)} of {config.episodes} episodes",
         ]
     )
 
 
 def missing_command(request: Request, runs: Sequence[TrainConfig]) -> str:
-    """Return the command that makes these runs of a figure, and none that an archive has."""
+    """Return the `waypost sweep` command that trains these runs of a figure, except those in an archive."""
     archives = [word for folder in request.archives for word in ("--from", str(folder))]
     return shlex.join([*_sweep(request, runs), *archives, "--store", request.store])
 
 
 def make(request: Request, found: Found) -> dict[str, Any]:
-    """Draw what can be drawn and return what was written.
+    """Draw all figures that have runs, write the tables, and return a summary as JSON data.
 
     Raises:
-        ValueError: none of the runs is there, or a file cannot be written.
+        ValueError: no run exists, or a file cannot be written.
     """
     comparisons = [Comparison.of(group, request.seeds, found) for group in request.groups]
     comparisons = [comparison for comparison in comparisons if comparison.runs]
     if not comparisons:
-        raise ValueError("none of the runs is there, so there is nothing to draw")
+        raise ValueError("none of the runs exists, so there is nothing to draw")
     lacking = [describe(config, found) for config in missing(request, found)]
     try:
         files = _write(request, comparisons, found, lacking)
@@ -130,7 +130,7 @@ def _sweep(request: Request, runs: Sequence[TrainConfig]) -> list[str]:
 
 
 def _own_command(request: Request, report: Path, partial: bool) -> str:
-    """Return the command that draws all this again from the CSV it wrote."""
+    """Return the `waypost figures` command that draws the same figures from the written archive."""
     words = ["waypost", "figures", "--figure", request.figure, "--seeds", _joined(request.seeds)]
     words += ["--from", _shown(request.out), "--out", _shown(request.out), "--report", _shown(report)]
     return shlex.join([*words, *(["--partial"] if partial else [])])
@@ -141,6 +141,6 @@ def _joined(seeds: Iterable[int]) -> str:
 
 
 def _shown(path: Path) -> str:
-    """Return a path as somebody else can type it: below the working folder, or its name alone."""
+    """Return a path for another machine: relative to the working folder if inside it, else only the file name."""
     path = path.resolve()
     return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path.name)

@@ -1,4 +1,4 @@
-"""The numbers that are compared: of each run, over the runs of a series, beside the published ones."""
+"""Computes the numbers in the tables: values of single runs, their spread over seeds, and ratios of two series."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -12,13 +12,13 @@ from waypost_learner.experiments.figures.statistics import Spread, Track, first_
 
 Unit = Literal["%", "units", "hours", "minutes", "samples", "labels", "labels per 1,000 samples", ""]
 
-LATE = 500  # episodes: LO labels are needed early, so the cost after these is looked at
-UNKNOWN = float("nan")  # an unfinished run may still get there
+LATE = 500  # episodes: most LO labels are needed before, so the tables show the share of the cost after them
+UNKNOWN = float("nan")  # the value of an unfinished run, which may still reach the level
 
 
 @dataclass(frozen=True)
 class Measure:
-    """A number of a run; `of` takes the run and whether inspections are left out of costs."""
+    """A number that is computed from one run; `of` takes the run and whether costs exclude inspections."""
 
     name: str
     unit: Unit
@@ -28,7 +28,7 @@ class Measure:
 
 @dataclass(frozen=True)
 class Topic:
-    """Measures that stand in one table."""
+    """The measures of one table."""
 
     title: str
     measures: tuple[Measure, ...]
@@ -36,7 +36,7 @@ class Topic:
 
 @dataclass(frozen=True)
 class Result:
-    """A measure over the runs of a series, or of two, and what was published of it."""
+    """The spread of a measure over the runs of a series (or of a ratio of two series), and its published value."""
 
     group: str
     series: str
@@ -47,7 +47,7 @@ class Result:
 
 
 def results(comparison: Comparison, topic: Topic) -> Iterator[Result]:
-    """Yield a topic's measures of every series."""
+    """Yield the results of a topic's measures for every series."""
     group = comparison.group
     for series, runs in comparison.runs.items():
         known = published(group, series)
@@ -57,28 +57,28 @@ def results(comparison: Comparison, topic: Topic) -> Iterator[Result]:
 
 
 def topics(comparison: Comparison) -> tuple[Topic, ...]:
-    """Return what is compared in a group."""
+    """Return the tables of a group."""
     if comparison.group.lean:
         return _LEAN
     return _HYBRID if comparison.group.hybrid else _IMITATION
 
 
-# --- one run's numbers
+# --- numbers of one run
 
 
 def at_end(run: RunCurves, column: Column) -> float:
-    """Return a column's last value, of a complete run."""
+    """Return a column's last value, or `UNKNOWN` if the run is unfinished."""
     return float(column[-1]) if run.complete else UNKNOWN
 
 
 def success_after(run: RunCurves, episodes: int) -> float:
-    """Return the success rate, in percent, after a number of episodes."""
+    """Return the success rate in percent after a number of episodes."""
     row = np.flatnonzero(run.episodes == episodes)
     return 100 * float(run.success_rate[row[0]]) if len(row) else UNKNOWN
 
 
 def at_level(run: RunCurves, level: float, column: Column) -> float:
-    """Return a column's value where the success rate first reached a level; infinite if it never did."""
+    """Return a column's value where the success rate first reached a level; infinite if a complete run never did."""
     row = first_at(level, run.test_success, run.success_rate)
     if row is None:
         return NEVER if run.complete else UNKNOWN
@@ -86,13 +86,16 @@ def at_level(run: RunCurves, level: float, column: Column) -> float:
 
 
 def late_share(run: RunCurves, column: Column) -> float:
-    """Return the share, in percent, of a cumulative column that came after episode 500."""
+    """Return the percentage of a cumulative column's last value that was added after episode 500."""
     end, row = at_end(run, column), np.flatnonzero(run.episodes == LATE)
     return 100 * (end - float(column[row[0]])) / end if len(row) and end > 0 else UNKNOWN
 
 
 def labels_per_thousand_samples(run: RunCurves, begin: float, end: float) -> float:
-    """Return the HI labels per 1,000 LO samples between two shares of the run's LO samples."""
+    """Return the HI labels per 1,000 LO samples in one part of a run.
+
+    The part lies between the shares `begin` and `end` (0 to 1) of the run's LO samples.
+    """
     samples = at_end(run, run.lo_samples)
     if not samples > 0:
         return UNKNOWN
@@ -100,7 +103,7 @@ def labels_per_thousand_samples(run: RunCurves, begin: float, end: float) -> flo
     return float(1_000 * (after - np.nan_to_num(before)) / (samples * (end - begin)))
 
 
-# --- what is compared
+# --- the measures of the tables
 
 
 def _success(episodes: int) -> Measure:
@@ -125,7 +128,7 @@ def _percent(share: float | None) -> float | None:
     return None if share is None else 100 * share
 
 
-_HOURS = Measure("learner's hours", "hours", lambda run, _: at_end(run, run.learner_seconds) / 3600)
+_HOURS = Measure("learner's wall time, hours", "hours", lambda run, _: at_end(run, run.learner_seconds) / 3600)
 
 _IMITATION = (
     Topic("Success on unseen mazes", tuple(_success(episodes) for episodes in EPISODES)),
@@ -134,7 +137,7 @@ _IMITATION = (
         (
             *(_cost_at(level) for level in LEVELS),
             Measure(
-                "expert cost in all",
+                "total expert cost",
                 "units",
                 lambda run, labels_only: at_end(run, run.cost(labels_only)),
                 lambda known: known.cost,
@@ -145,14 +148,18 @@ _IMITATION = (
         "LO-level expert cost",
         (
             Measure(
-                "LO cost in all",
+                "total LO cost",
                 "units",
                 lambda run, _: at_end(run, run.lo_cost),
                 lambda known: known.cost if known.lo_only else None,
             ),
-            Measure("share of it after episode 500", "%", lambda run, _: late_share(run, run.lo_cost)),
+            Measure("share of total LO cost after episode 500", "%", lambda run, _: late_share(run, run.lo_cost)),
             Measure("LO cost without demonstrations", "units", lambda run, _: at_end(run, run.lo_label_cost)),
-            Measure("share of that after episode 500", "%", lambda run, _: late_share(run, run.lo_label_cost)),
+            Measure(
+                "share of LO cost without demonstrations after episode 500",
+                "%",
+                lambda run, _: late_share(run, run.lo_label_cost),
+            ),
             _HOURS,
         ),
     ),
@@ -164,8 +171,8 @@ _LEAN = (
         (
             *(_success(episodes) for episodes in (100, 200, 300)),
             *(_cost_at(level) for level in (0.8, 0.95, 0.99)),
-            Measure("expert cost in all", "units", lambda run, labels: at_end(run, run.cost(labels))),
-            Measure("learner's minutes", "minutes", lambda run, _: at_end(run, run.learner_seconds) / 60),
+            Measure("total expert cost", "units", lambda run, labels: at_end(run, run.cost(labels))),
+            Measure("learner's wall time, minutes", "minutes", lambda run, _: at_end(run, run.learner_seconds) / 60),
         ),
     ),
 )
@@ -182,14 +189,14 @@ _HYBRID = (
             ),
             Measure("episodes when 90% was reached", "", lambda run, _: at_level(run, 0.9, run.episodes)),
             Measure("LO samples when 90% was reached", "samples", lambda run, _: at_level(run, 0.9, run.lo_samples)),
-            Measure("LO samples in all", "samples", lambda run, _: at_end(run, run.lo_samples)),
+            Measure("total LO samples", "samples", lambda run, _: at_end(run, run.lo_samples)),
             _HOURS,
         ),
     ),
     Topic(
         "HI labels",
         (
-            Measure("HI labels in all", "labels", lambda run, _: at_end(run, run.hi_labels)),
+            Measure("total HI labels", "labels", lambda run, _: at_end(run, run.hi_labels)),
             Measure(
                 "HI labels per 1,000 LO samples, first fifth",
                 "labels per 1,000 samples",
@@ -200,40 +207,40 @@ _HYBRID = (
                 "labels per 1,000 samples",
                 lambda run, _: labels_per_thousand_samples(run, 0.8, 1.0),
             ),
-            Measure("expert cost in all, with inspections", "units", lambda run, labels: at_end(run, run.cost(labels))),
+            Measure("total expert cost, with inspections", "units", lambda run, labels: at_end(run, run.cost(labels))),
         ),
     ),
 )
 
 
-# --- one series held against another, seed by seed
+# --- ratios of two series, per seed
 
 
 @dataclass(frozen=True)
 class _Ratio:
     name: str
-    of: str  # algorithms
-    to: str
+    of: str  # the algorithm in the numerator
+    to: str  # the algorithm in the denominator
     amount: Callable[[RunCurves, bool], float]
     published: Callable[[Published], float | None] = lambda _: None
 
 
 _RATIOS = (
     _Ratio(
-        "expert cost of hg-DAgger to flat DAgger's",
+        "expert cost, hg-DAgger / flat DAgger",
         "hg-dagger",
         "flat-dagger",
         lambda run, labels_only: at_end(run, run.cost(labels_only)),
         lambda known: known.cost,
     ),
     _Ratio(
-        "LO cost of naive h-DAgger to hg-DAgger's",
+        "LO cost, naive h-DAgger / hg-DAgger",
         "naive-h-dagger",
         "hg-dagger",
         lambda run, _: at_end(run, run.lo_cost),
     ),
     _Ratio(
-        "LO cost of naive h-DAgger to hg-DAgger's, without demonstrations",
+        "LO cost without demonstrations, naive h-DAgger / hg-DAgger",
         "naive-h-dagger",
         "hg-dagger",
         lambda run, _: at_end(run, run.lo_label_cost),
@@ -242,7 +249,7 @@ _RATIOS = (
 
 
 def ratios(comparison: Comparison) -> Iterator[Result]:
-    """Yield the ratios between series of a group: of runs of one seed, so that both saw the same mazes."""
+    """Yield the ratios of series of a group. Each ratio compares runs with the same seed, which saw the same mazes."""
     group = comparison.group
     by_algorithm = {series.config.algorithm: series for series in comparison.runs}
     for ratio in _RATIOS:
@@ -263,7 +270,7 @@ def _divided(amount: float, by: float) -> float:
 
 
 def summary(comparisons: Sequence[Comparison]) -> list[Result]:
-    """Return every result there is."""
+    """Return the results of all tables, including ratios."""
     return [
         result
         for comparison in comparisons

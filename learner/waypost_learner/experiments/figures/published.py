@@ -1,8 +1,9 @@
-"""The published numbers of the maze experiments, as data.
+"""Contains the published numbers of the maze experiments.
 
-Read off the plots of Le et al. 2018 (figure "Maze navigation: hierarchical versus flat imitation learning") and of the
-authors' own experiments: medians of five runs on corner mazes, to about one percentage point and 500 units. Their
-costs are labels alone, and their episodes leave out training rollouts that succeeded at once.
+They are medians of five runs on corner mazes. We read them from the plots of Le et al. 2018 (figure "Maze navigation:
+hierarchical versus flat imitation learning") and of the authors' own experiments, with an accuracy of about one
+percentage point and 500 units. Their costs include only labels. Their episodes exclude training rollouts that
+succeeded at once.
 """
 
 from collections.abc import Mapping
@@ -11,20 +12,20 @@ from dataclasses import dataclass, field
 from waypost_learner.experiments.plan import Group, Series
 
 NEVER = float("inf")
-EPISODES = (270, 500, 600, 1_000)  # after which success is compared
-LEVELS = (0.8, 0.95)  # of success, whose cost is compared
+EPISODES = (270, 500, 600, 1_000)  # success is compared after these episodes
+LEVELS = (0.8, 0.95)  # the cost to reach these success rates is compared
 
 
 @dataclass(frozen=True)
 class Published:
-    """What was published of one algorithm.
+    """The published numbers of one algorithm; empty if there are none.
 
     Args:
-        success: the success rate after a number of episodes.
-        cost: units after 1,000 episodes.
-        cost_at: units when a success rate was first reached.
-        lo_only: whether every one of its labels is a LO-level one, so that its LO cost is its cost.
-        final: the success rate it ended with, where no more than that is known.
+        success: success rate (0 to 1) by number of episodes.
+        cost: expert cost after 1,000 episodes, in units.
+        cost_at: expert cost in units when a success rate was first reached; infinite if it never was.
+        lo_only: whether all its labels are LO-level labels. Then its LO-level cost equals its cost.
+        final: the success rate at the end, 0 to 1.
     """
 
     success: Mapping[int, float] = field(default_factory=dict)
@@ -51,7 +52,7 @@ _H_DQN = Published(final=0.0)  # "we were not able to achieve non-zero rewards" 
 
 
 def published(group: Group, series: Series) -> Published:
-    """Return what was published of a series; nothing where its group counts otherwise than the authors."""
+    """Return the published numbers of a series; empty ones if its group counts differently from the authors."""
     algorithm = series.config.algorithm
     if group.labels_only:
         return _IMITATION.get(algorithm, Published())

@@ -1,4 +1,4 @@
-"""The report: tables and figures in one Markdown document, with the commands that make them again."""
+"""Writes the report: one Markdown document with all tables and figures, and the commands that reproduce them."""
 
 import os
 from collections.abc import Iterator, Sequence
@@ -8,11 +8,11 @@ from waypost_learner.experiments.figures import archive, tables
 from waypost_learner.experiments.figures.data import Comparison
 
 _INTRODUCTION = """\
-Written by `waypost figures`; do not edit. Ours is the median over runs that differ by seed alone, with their range;
-the published numbers are medians of five, read off the authors' plots
-(`learner/experiments/figures/published.py`). Success is the rate over the trailing 100 test episodes, each on an
-unseen maze; a level is reached when the rate over a full hundred is. `never` counts as infinite in a median. What
-differs from the paper, and why: `docs/paper.md`."""
+`waypost figures` writes this document; do not edit it. Our numbers are medians over runs that differ only in the seed,
+with the range in parentheses. Published numbers are medians of five runs, read from the authors' plots
+(`learner/waypost_learner/experiments/figures/published.py`). Success is the success rate over the trailing 100 test
+episodes, each on an unseen maze. A level is reached in the first episode with this rate over a full 100 tests. `never`
+counts as infinite in a median. `docs/paper.md` explains the deviations from the paper."""
 
 
 def write(
@@ -27,11 +27,11 @@ def write(
 
     Args:
         file: the document.
-        folder: where the figures are.
-        comparisons: what was compared.
-        figures: the names of the figures, each beginning with its group's.
-        commands: what makes the runs, and what draws them.
-        missing: the runs that are not there, or not whole.
+        folder: the folder that contains the figures and the CSV files.
+        comparisons: the groups with their runs, in the order of the document.
+        figures: the names of the figures; each starts with the name of its group.
+        commands: the commands that train the runs and draw the figures.
+        missing: descriptions of the missing and unfinished runs.
     """
     file.parent.mkdir(parents=True, exist_ok=True)
     beside = Path(os.path.relpath(folder, file.parent)).as_posix()
@@ -47,10 +47,10 @@ def _lines(
     missing: Sequence[str],
 ) -> Iterator[str]:
     yield from ("# Results", "", _INTRODUCTION, "", "```sh", *commands, "```", "")
-    yield f"Every row of every run is in [{archive.FILE}]({beside}/{archive.FILE}), the numbers of the tables in"
-    yield from (f"[{tables.FILE}]({beside}/{tables.FILE}).", "")
+    yield f"[{archive.FILE}]({beside}/{archive.FILE}) has one row per run and episode."
+    yield from (f"[{tables.FILE}]({beside}/{tables.FILE}) has the numbers of the tables.", "")
     if missing:
-        yield from ("Missing, or unfinished and drawn as far as they are:", "")
+        yield from ("These runs are missing or unfinished. An unfinished run is drawn up to its last episode.", "")
         yield from (*(f"- {one}" for one in missing), "")
     for comparison in comparisons:
         group = comparison.group

@@ -1,4 +1,4 @@
-"""Medians and ranges over runs, and runs as step functions."""
+"""Computes medians and ranges over runs, and values of runs as step functions."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,13 +7,13 @@ import numpy as np
 
 from waypost_learner.experiments.figures.data import Column
 
-TRAILING = 100  # tests a success rate is taken over
-POINTS = 201  # of a drawn curve
+TRAILING = 100  # tests in a success rate
+POINTS = 201  # points of a drawn curve
 
 
 @dataclass(frozen=True)
 class Spread:
-    """The median of some runs' values and their range; infinite where a run never got there."""
+    """The median, minimum and maximum of a value over runs. A run that never reached it counts as infinite."""
 
     median: float
     low: float
@@ -23,10 +23,10 @@ class Spread:
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """One run's values as a step function: `y[i]` holds from `x[i]` on, float64[n] each, x not decreasing.
+    """One run's values as a step function: y equals `y[i]` from `x[i]` on. Both are float64[n]; x does not decrease.
 
-    Of a run that is `over`, the last value holds for good: with more to spend it would have spent no more. Of one
-    that is not, nothing is known beyond its last row.
+    If the run is `over`, it keeps its last value forever, because it spends nothing more. If not, its values after the
+    last row are unknown.
     """
 
     x: Column
@@ -34,7 +34,7 @@ class Track:
     over: bool
 
     def at(self, grid: Column) -> Column:
-        """Return the values on a grid, nan where there is none."""
+        """Return the values at the grid points; nan where they are unknown."""
         place = np.searchsorted(self.x, grid, side="right") - 1
         known = (place >= 0) & (self.over | (grid <= self.x[-1]))
         return np.where(known, self.y[place], np.nan)
@@ -42,7 +42,7 @@ class Track:
 
 @dataclass(frozen=True, eq=False)
 class Band:
-    """Median and range over runs, on a grid; float64[points] each."""
+    """The median and range over runs at grid points; every array is float64[points]."""
 
     x: Column
     median: Column
@@ -51,7 +51,7 @@ class Band:
 
 
 def spread(values: Sequence[float]) -> Spread | None:
-    """Return the spread of the values that are known (not nan), or None if there is none."""
+    """Return the spread of the known (not nan) values, or None if no value is known."""
     known = [value for value in values if not np.isnan(value)]
     if not known:
         return None
@@ -59,12 +59,11 @@ def spread(values: Sequence[float]) -> Spread | None:
 
 
 def band(tracks: Sequence[Track], points: int = POINTS) -> Band | None:
-    """Return the median and range of runs against x, or None if they have no values.
+    """Return the median and range of runs as functions of x, or None if no run has values.
 
-    Each run is sampled as a step function on one grid, because runs do not spend the same amounts at the same time.
-    The grid begins where all runs have begun and ends at the median of their ends: as far as half of the runs went.
-    Its points are as dense as the runs' rows are, so that a success that rises at nearly no cost has them too. A
-    complete run that ended before keeps its last value, an unfinished one is left out from its end on.
+    Runs have different values of x, so each run is evaluated as a step function on a common grid. The grid starts where
+    all runs have values, and ends at the median of the runs' last x. It has more points where the runs have more rows,
+    so a steep rise is drawn exactly. A complete run keeps its last value; an unfinished run is excluded after its end.
     """
     begun = [Track(t.x[known], t.y[known], t.over) for t in tracks if (known := ~np.isnan(t.y)).any()]
     if not begun:
@@ -79,7 +78,7 @@ def band(tracks: Sequence[Track], points: int = POINTS) -> Band | None:
 
 
 def first_at(level: float, test_success: Column, success_rate: Column) -> int | None:
-    """Return the row at which the success rate over a full hundred of tests first reached a level."""
+    """Return the first row where the success rate over a full 100 tests is at least `level`, or None."""
     full = np.cumsum(~np.isnan(test_success)) >= TRAILING
     reached = np.flatnonzero(full & (success_rate >= level))
     return int(reached[0]) if len(reached) else None

@@ -1,4 +1,4 @@
-"""Runs out of a store or from a server, found by what fixes them."""
+"""Reads the curves of runs from a store or from a server, and finds runs by their configuration."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
@@ -11,24 +11,27 @@ from waypost_learner.runs.config import TrainConfig
 
 
 class Source(Protocol):
-    """Where runs and their curves are."""
+    """A source of runs and their curves."""
 
     def runs(self) -> list[wire.Run]:
         """Return the runs, newest first."""
 
     def curves(self, run: str) -> wire.Curves:
-        """Return success and cost of a run, by episode."""
+        """Return the success and the cost of a run by episode."""
 
 
 @contextmanager
 def served(server: str, token: str) -> Iterator[Source]:
-    """Connect to a server."""
+    """Open a client of a server."""
     with closing(Client(server, token)) as client:
         yield client
 
 
 def read(source: Source, wanted: Sequence[TrainConfig]) -> dict[TrainConfig, RunCurves]:
-    """Return the runs of these configurations; of several of one, the newest of those that got furthest."""
+    """Return the runs with these configurations.
+
+    If several runs have the same configuration, take the one with most episodes; among these, the newest.
+    """
     furthest: dict[TrainConfig, wire.Run] = {}
     for run in source.runs():
         config = _config(run)
@@ -42,8 +45,8 @@ def read(source: Source, wanted: Sequence[TrainConfig]) -> dict[TrainConfig, Run
 
 
 def _config(run: wire.Run) -> TrainConfig | None:
-    """Return what fixes a run, or None if that is nothing this version knows."""
+    """Return the configuration of a run, or None if this version does not know one of its fields."""
     try:
-        return TrainConfig(**run.config)  # type: ignore[arg-type]  # what is no configuration equals none that is wanted
+        return TrainConfig(**run.config)  # type: ignore[arg-type]  # values of wrong types equal no needed configuration
     except TypeError:
         return None

@@ -1,4 +1,4 @@
-"""Results as tables: a tidy CSV, and Markdown with ours beside the published numbers."""
+"""Writes results as tables: a CSV file with one row per result, and Markdown tables with the published numbers."""
 
 import csv
 from collections.abc import Iterator, Sequence
@@ -15,7 +15,7 @@ _COLUMNS = ("group", "series", "measure", "unit", "median", "min", "max", "runs"
 
 
 def write_summary(folder: Path, comparisons: Sequence[Comparison]) -> Path:
-    """Write every result as a row; `never` where the median run, or the published one, never got there."""
+    """Write `summary.csv` with one row per result, and return its path. `never` stands for an infinite value."""
     path = folder / FILE
     with path.open("w", newline="", encoding="utf-8") as file:
         rows = csv.writer(file, lineterminator="\n")
@@ -39,14 +39,17 @@ def _plain(value: float | None) -> str:
 
 
 def markdown(comparison: Comparison) -> Iterator[str]:
-    """Yield a group's tables, a line each: ours as median (min to max) over runs, and below what was published."""
+    """Yield the lines of a group's tables.
+
+    Our numbers are "median (min to max)" over runs. The published numbers are in the row below.
+    """
     for topic in topics(comparison):
         yield from (f"**{topic.title}**", "")
         yield from _table([measure.name for measure in topic.measures], list(results(comparison, topic)))
         yield ""
     found = list(ratios(comparison))
     if found:
-        yield from ("**Ratios, seed by seed**", "", "| | ours | published |", "|---|---|---|")
+        yield from ("**Ratios per seed**", "", "| | ours | published |", "|---|---|---|")
         for ratio in found:
             yield f"| {ratio.measure} | {_ours(ratio.ours, ratio.unit)} | {_number(ratio.published, ratio.unit)} |"
         yield ""

@@ -1,9 +1,9 @@
-"""Episodes as bad for a learner as the proofs fear: each shows one mistake, at the highest price and the least gain.
+"""Constructs the worst episodes for a learner: each shows one mistake, at the highest cost and with the least gain.
 
-The analysis bounds mistakes in any sequence of episodes, so an opponent who knows the learner comes closest to its
-bounds. This one keeps the learner at a position where it is right, lets the last segment begin at u, and leads it to x
-for the last step, where its action is not the expert's. Hence the episode fails, its other labels teach nothing, and
-hg-DAgger has inspected every segment before it comes to the last.
+The theorems hold for every sequence of episodes, so an adversary who knows the learner comes closest to the bounds.
+This adversary keeps the learner at a position where it acts correctly, lets the last segment begin at u, and leads it
+to x for the last step, where its action differs from the expert's. So the episode fails, all other labels teach
+nothing, and hg-DAgger inspects all earlier segments before the last one.
 """
 
 from typing import Any
@@ -18,13 +18,13 @@ from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 
 
 def worst_instance(task: Task, classes: Classes, policies: dict[PolicyKey, VersionSpace]) -> Any | None:
-    """Return the instance whose one mistake leaves most policies; None if there is none of this form."""
+    """Return the instance whose one mistake removes the fewest policies; None if no episode of this form exists."""
     right = classes.pi_star[classes.mu_star]  # [u, x], the expert's actions
     if FLAT in policies:
         acts, kept, trusted = _flat(policies[FLAT], right)
     else:
         acts, kept, trusted = _hierarchical(classes, policies, right)
-    agrees = acts.diagonal() == right.diagonal()  # in the state (u, u)
+    agrees = acts.diagonal() == right.diagonal()  # [u], the learner is right in the state (u, u)
     showing = np.where(agrees[:, None] & (acts != right), kept, 0)
     calm = np.flatnonzero(agrees & trusted)
     if not showing.any() or not len(calm):
@@ -39,7 +39,8 @@ def worst_instance(task: Task, classes: Classes, policies: dict[PolicyKey, Versi
 
 
 _View = tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.bool_]]
-"""The learner's actions, [u, x]; what share of a class a mistake there leaves, [u, x]; where mu errs not, [u]."""
+"""The learner's actions, [u, x]; the share of a class that remains after a mistake there, [u, x]; whether mu is right,
+[u]."""
 
 
 def _flat(policy: VersionSpace, right: NDArray[np.int64]) -> _View:

@@ -1,4 +1,4 @@
-"""Theorems 1 and 2 of Le et al. 2018 and the ratio that follows from them (section 4.2), for the prices of a run."""
+"""Computes the bounds of Theorems 1 and 2 (Le et al. 2018, section 4.2) and their ratio, for the prices of a run."""
 
 from dataclasses import dataclass
 from math import log2
@@ -11,20 +11,20 @@ from waypost_learner.experiments.theory.classes import Cell
 
 @dataclass(frozen=True)
 class Expense:
-    """What an expert costs by round T, in units."""
+    """The expert cost of T rounds, in units."""
 
     monitoring: float  # T C_I^full, the same for both learners
     learning: float  # everything else
 
     @property
     def total(self) -> float:
-        """Both together."""
+        """The sum of both."""
         return self.monitoring + self.learning
 
 
 @dataclass(frozen=True)
 class OperationCosts:
-    """What each operation of the expert costs at most, in units (section 3)."""
+    """The highest cost of each operation of the expert, in units (section 3)."""
 
     inspect_full: float  # C_I^full
     inspect_lo: float  # C_I^LO
@@ -34,7 +34,7 @@ class OperationCosts:
 
 
 def operation_costs(cell: Cell, prices: wire.Prices) -> OperationCosts:
-    """Return what answers as long as the horizons cost."""
+    """Return the costs of the longest possible answers, given the horizons of the cell."""
 
     def units(answer: wire.Answer) -> float:
         return to_units(pricing.cost(answer, prices).units)
@@ -50,7 +50,7 @@ def operation_costs(cell: Cell, prices: wire.Prices) -> OperationCosts:
 
 
 def theorem_1(cell: Cell, n_used: int, rounds: int, costs: OperationCosts) -> Expense:
-    """Return the bound for hg-DAgger; `n_used` is |G_opt|, the number of subgoals that the expert uses."""
+    """Return the bound of Theorem 1 for hg-DAgger; `n_used` is |G_opt|, the number of subgoals that the expert uses."""
     lo_mistakes = n_used * log2(cell.n_pi)
     a_failure = costs.label_hi + cell.h_hi * costs.inspect_lo
     learning = (log2(cell.n_mu) + lo_mistakes) * a_failure + lo_mistakes * costs.label_lo
@@ -58,16 +58,16 @@ def theorem_1(cell: Cell, n_used: int, rounds: int, costs: OperationCosts) -> Ex
 
 
 def theorem_2(cell: Cell, rounds: int, costs: OperationCosts) -> Expense:
-    """Return the bound for flat DAgger."""
+    """Return the bound of Theorem 2 for flat DAgger."""
     mistakes = log2(cell.n_mu) + cell.n_subgoals * log2(cell.n_pi)
     return Expense(rounds * costs.inspect_full, mistakes * costs.label_full)
 
 
 def ratio_of_bounds(cell: Cell, costs: OperationCosts) -> float:
-    """Return what bounds the ratio of the two theorems' learning terms."""
+    """Return an upper bound of the ratio of the learning terms of Theorem 1 and Theorem 2."""
     return (costs.label_hi + cell.h_hi * costs.inspect_lo + costs.label_lo) / costs.label_full
 
 
 def proportion(cell: Cell) -> float:
-    """Return (H_HI + H_LO) / (H_HI H_LO), to which the ratio is proportional where an inspection costs O(1)."""
+    """Return (H_HI + H_LO) / (H_HI H_LO). If an inspection costs O(1), the ratio is proportional to this number."""
     return (cell.h_hi + cell.h_lo) / (cell.h_hi * cell.h_lo)

@@ -1,4 +1,4 @@
-"""The picture of the theory: measured ratios beside the promised ones, and every cost beside its bound."""
+"""Draws the figure of the theory: measured ratios compared with the bounds, and every cost compared with its bound."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,13 +13,13 @@ from waypost_learner.experiments.figures.look import DPI, RC
 from waypost_learner.experiments.theory.grid import EPISODES, Row, worst
 from waypost_learner.experiments.theory.simulation import Episodes
 
-# Okabe and Ito's colors; the algorithms have theirs in every figure (`learner/experiments/figures/look.py`).
+# The palette of Okabe and Ito. hg-DAgger and flat DAgger have the same colors as in `experiments/figures/look.py`.
 _BLUE, _GREEN, _VERMILLION, _PURPLE, _GREY = "#0072B2", "#009E73", "#D55E00", "#CC79A7", "0.4"
 _FILLED: dict[Episodes, Literal["full", "none"]] = {"worst": "full", "random": "none"}
 
 
 def draw(rows: Sequence[Row]) -> Figure:
-    """Return the figure; nothing is shown, so no display is needed."""
+    """Return the figure. It needs no display."""
     with rc_context(RC):
         figure = Figure(figsize=(11, 5.4), layout="constrained")
         left, right = figure.subplots(1, 2)
@@ -29,10 +29,10 @@ def draw(rows: Sequence[Row]) -> Figure:
 
 
 def save(rows: Sequence[Row], folder: Path) -> None:
-    """Write theory.svg and theory.png into a folder."""
+    """Write theory.svg and theory.png into a folder. The same numbers give the same files."""
     with rc_context(RC):
         figure = draw(rows)
-        figure.savefig(folder / "theory.svg", metadata={"Date": None})  # the same numbers give the same file
+        figure.savefig(folder / "theory.svg", metadata={"Date": None})  # without the time
         figure.savefig(folder / "theory.png", dpi=DPI)
 
 
@@ -42,7 +42,7 @@ def _draw_ratios(axes: Axes, rows: Sequence[Row]) -> None:
     axes.plot(ends, ends, color=_GREY, linestyle="--", label="the paper's proportion")
     bounds = sorted({(row.proportion, row.ratio_of_bounds) for row in rows})
     axes.plot(*zip(*bounds, strict=True), "_", color="black", markersize=26, label="ratio of the two bounds")
-    # Set a little apart, so that they do not hide each other.
+    # Move the two kinds of points apart, so that they do not hide each other.
     for episodes, color, marker, apart in zip(EPISODES, (_VERMILLION, _PURPLE), "oD", (0.96, 1.04), strict=True):
         found = [(row.proportion * apart, row.ratio) for row in rows if row.episodes == episodes and row.ratio]
         if found:

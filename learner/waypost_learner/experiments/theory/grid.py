@@ -1,4 +1,4 @@
-"""Both learners over a grid of cells and several seeds: what they cost, beside their bounds."""
+"""Simulates both learners in a grid of cells with several seeds, and compares their costs with the bounds."""
 
 import csv
 from collections.abc import Callable, Sequence
@@ -20,29 +20,29 @@ EPISODES: tuple[Episodes, ...] = get_args(Episodes)
 
 @dataclass(frozen=True)
 class Side:
-    """One learner in one cell, in units: the mean over seeds, unless it says otherwise."""
+    """The result of one learner in one cell: means over seeds in units, except `worst`."""
 
-    cost: float  # by round T
+    cost: float  # after T rounds
     bound: float
-    learning: float  # the same without T C_I^full
-    learning_bound: float
-    worst: float  # the largest share of its learning bound that any seed spent
+    learning: float  # the cost without T C_I^full
+    learning_bound: float  # the bound without T C_I^full
+    worst: float  # the maximum over seeds of learning cost / learning bound
 
 
 @dataclass(frozen=True)
 class Row:
-    """One cell with one kind of episodes."""
+    """The results of both learners in one cell with one kind of episodes."""
 
     cell: Cell
     episodes: Episodes
     hg: Side
     flat: Side
-    ratio: float | None  # of the learning costs, hg-DAgger to flat DAgger; None if flat DAgger spent nothing
+    ratio: float | None  # learning cost of hg-DAgger / of flat DAgger; None if that of flat DAgger is 0
     ratio_of_bounds: float
     proportion: float  # (H_HI + H_LO) / (H_HI H_LO)
 
     def values(self) -> dict[str, Any]:
-        """Return everything under flat names, for files and programs."""
+        """Return all values as a flat dictionary, for CSV and JSON."""
         sides = {
             f"{name}_{key}": value for name in ("hg", "flat") for key, value in asdict(getattr(self, name)).items()
         }
@@ -51,7 +51,7 @@ class Row:
 
 
 def measure(cells: Sequence[Cell], seeds: int, rounds: int, done: Callable[[], None] = lambda: None) -> list[Row]:
-    """Simulate every cell with both kinds of episodes and the seeds 0, 1, ...; `done` is called after each row."""
+    """Simulate every cell with both kinds of episodes and the seeds 0, 1, ...; call `done` after each row."""
     rows = []
     for episodes in EPISODES:
         for cell in cells:
@@ -67,7 +67,7 @@ def measure(cells: Sequence[Cell], seeds: int, rounds: int, done: Callable[[], N
 
 
 def write_csv(rows: Sequence[Row], path: Path) -> None:
-    """Write a line per row."""
+    """Write a CSV file with one line per row."""
     with path.open("w", newline="") as file:
         writer = csv.DictWriter(file, list(rows[0].values()), lineterminator="\n")
         writer.writeheader()
@@ -75,7 +75,7 @@ def write_csv(rows: Sequence[Row], path: Path) -> None:
 
 
 def worst(rows: Sequence[Row]) -> dict[str, float]:
-    """Return the largest share of its learning bound that each learner spent anywhere."""
+    """Return the maximum of learning cost / learning bound over all rows and seeds, for "hg" and "flat"."""
     return {"hg": max(row.hg.worst for row in rows), "flat": max(row.flat.worst for row in rows)}
 
 

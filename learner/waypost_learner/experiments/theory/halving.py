@@ -1,8 +1,9 @@
-"""The halving algorithm (Shalev-Shwartz 2012; Le et al. 2018, section 4.2) on finite classes of policies.
+"""Implements the halving algorithm (Shalev-Shwartz 2012; Le et al. 2018, section 4.2) on finite policy classes.
 
 It "maintains a version space over policies, acts by a majority decision, and when it makes a mistake, it removes all
-the erring policies from the version space". With several choices the one with most votes is taken. If it was wrong, the
-right one had no more votes, so at most half of the version space remains: at most log2 of the class's size mistakes.
+the erring policies from the version space". With more than two choices, it takes the choice with most votes. If this
+choice is wrong, the correct choice has at most as many votes. So each mistake leaves at most half of the version space,
+and there are at most log2(size of the class) mistakes.
 """
 
 from abc import ABC, abstractmethod
@@ -18,40 +19,40 @@ Observation = NDArray[np.float32]  # [2], the positions u and x
 
 
 class VersionSpace(ABC):
-    """What is left of a class of policies, acting by majority."""
+    """The remaining policies of a class, which act by majority."""
 
     def __init__(self) -> None:
         self.mistakes = 0
         self.recount()
 
     def recount(self) -> None:
-        """Let the policies that are left vote, in every place a state can have."""
+        """Count the votes of the remaining policies for every place in the tables."""
         self.votes = self.count()  # [places.., choices], exact
-        self.choices = self.votes.argmax(-1)  # [places..], the first of several that are level
+        self.choices = self.votes.argmax(-1)  # [places..], the first choice with most votes
 
     @property
     def size(self) -> int:
-        """How many policies are left: each has a vote in every place."""
+        """The number of remaining policies. Each has one vote in every place, so the votes of one place are enough."""
         return int(self.votes.reshape(-1, self.votes.shape[-1])[0].sum())
 
     @abstractmethod
     def count(self) -> NDArray[np.float64]:
-        """Return how many of the policies that are left take each choice, [places.., choices]."""
+        """Return the number of remaining policies that take each choice, [places.., choices]."""
 
     @abstractmethod
     def place(self, observation: Observation) -> tuple[int, ...]:
-        """Return where a state stands in the tables."""
+        """Return the index of a state in the tables."""
 
     @abstractmethod
     def remove_erring(self, place: tuple[int, ...], choice: int) -> None:
         """Remove the policies that do not take the expert's choice."""
 
     def choose(self, observation: Observation) -> int:
-        """Return what most policies choose."""
+        """Return the choice of the majority."""
         return int(self.choices[self.place(observation)])
 
     def learn(self, rows: Iterable[Row]) -> None:
-        """Take labels in one after the other."""
+        """Learn from labels, one after the other."""
         for row in rows:
             if row.choice not in (UNLABELED, self.choose(row.observation)):
                 self.mistakes += 1
@@ -60,7 +61,7 @@ class VersionSpace(ABC):
 
 
 class Simple(VersionSpace):
-    """A class of tables over the present position: M, or Pi_LO as what one pi_g is learned from."""
+    """A class of tables over the current position x: M for mu, or Pi_LO for one pi_g."""
 
     def __init__(self, tables: NDArray[np.int64], n_choices: int) -> None:
         self.tables = tables  # [N, positions]
@@ -84,14 +85,15 @@ class Simple(VersionSpace):
 
 
 class Product(VersionSpace):
-    """Pi_FULL = {(mu, {pi_g})}: a policy takes pi_{mu(u)}(x). It is never enumerated, and yet nothing is approximated.
+    """The class Pi_FULL = {(mu, {pi_g})} of flat policies, which act by pi_{mu(u)}(x).
 
-    For a fixed mu, a label at (u, x) says something of one subpolicy alone, the one of g = mu(u). So what is left with
-    this mu is always a product of sets, one per subgoal, and the version space is the union of these products over mu.
-    `left[mu, g]` marks the subpolicies that are left for g; policies are counted by products of such counts.
+    The votes are exact although the class is never enumerated. For a fixed mu, a label at (u, x) restricts only the
+    subpolicy of g = mu(u). So the remaining policies with this mu are always a product of sets, one per subgoal.
+    `left[mu, g]` marks the remaining subpolicies for g. The number of policies is the sum over mu of the products over
+    g of these counts.
 
     Raises:
-        ValueError: the class has more policies than floating point counts exactly.
+        ValueError: the class has more policies than floating-point numbers can count exactly.
     """
 
     def __init__(self, classes: Classes) -> None:
@@ -106,7 +108,7 @@ class Product(VersionSpace):
     def count(self) -> NDArray[np.float64]:
         """Return the votes, [u, x, actions]."""
         n_left = self.left.sum(axis=2).astype(float)  # [|M|, |G|]
-        acting = np.zeros((self._mu.shape[1], self.left.shape[2]))  # [u, |Pi_LO|]: full policies that act by each pi
+        acting = np.zeros((self._mu.shape[1], self.left.shape[2]))  # [u, |Pi_LO|], full policies that act by each pi
         for g in range(self.left.shape[1]):
             with_each = np.delete(n_left, g, axis=1).prod(axis=1)[:, None] * self.left[:, g]  # [|M|, |Pi_LO|]
             acting += (self._mu == g).T.astype(float) @ with_each

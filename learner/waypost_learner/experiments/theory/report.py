@@ -1,4 +1,4 @@
-"""What was measured, as a table for people."""
+"""Formats the results of the theory as a text table."""
 
 from collections.abc import Iterator, Sequence
 
@@ -6,7 +6,7 @@ from waypost_learner.experiments.theory.grid import EPISODES, Row, worst
 from waypost_learner.experiments.theory.simulation import Episodes
 
 _TITLES: dict[Episodes, str] = {
-    "worst": "The worst episodes, chosen by an adversary who knows the learner:",
+    "worst": "Worst episodes, chosen by an adversary who knows the learner:",
     "random": "Random episodes:",
 }
 _HEADS = (
@@ -17,15 +17,15 @@ _HEADS = (
 
 def table(rows: Sequence[Row], seeds: int, rounds: int) -> Iterator[str]:
     """Yield the lines of the table."""
-    yield f"Means over {seeds} seeds, in units, after T = {rounds} episodes. `cost` holds the T inspections of whole"
-    yield "episodes; `learn` does not, and `max` is the largest share of its bound that a seed spent. At the right: the"
-    yield "ratio of `learn`, the ratio of its bounds, and (H_HI + H_LO) / (H_HI H_LO)."
+    yield f"Means over {seeds} seeds, in units, after T = {rounds} episodes. `cost` includes the T inspections of whole"
+    yield "episodes; `learn` excludes them. `max` is the largest `learn` / bound of all seeds. The last three columns"
+    yield "are the ratio of `learn`, the ratio of its bounds, and (H_HI + H_LO) / (H_HI H_LO)."
     for episodes in EPISODES:
         yield from ("", _TITLES[episodes], *_HEADS)
         yield from (_line(row) for row in rows if row.episodes == episodes)
     spent = worst(rows)
     yield ""
-    yield f"No seed spent more of its bound on `learn` than {spent['hg']:.1%} (hg-DAgger), {spent['flat']:.1%} (flat)."
+    yield f"The largest `learn` / bound of all seeds is {spent['hg']:.1%} (hg-DAgger) and {spent['flat']:.1%} (flat)."
 
 
 def _line(row: Row) -> str:

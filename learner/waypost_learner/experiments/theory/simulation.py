@@ -1,7 +1,7 @@
-"""T rounds of hg-DAgger or flat DAgger on finite classes, by the code that real runs are made with.
+"""Simulates T rounds of hg-DAgger or flat DAgger on finite classes, with the code of real runs.
 
-The episodes are `learner/algorithms`; questions become wire messages, the oracle expert answers them, and
-`server/kinds.py` prices the answers. Only the learner is another one: halving instead of networks.
+The episodes come from `waypost_learner.algorithms`. Queries become wire messages, the oracle expert answers them, and
+`waypost.prices` computes the costs. Only the learner is different: it uses halving instead of networks.
 """
 
 from collections import Counter
@@ -33,17 +33,17 @@ from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 from waypost_learner.rollout.simulator import Start
 
 Episodes = Literal["worst", "random"]
-"""Where episodes come from: an adversary who knows the learner, or chance."""
+"""The source of the episodes: an adversary who knows the learner ("worst"), or chance ("random")."""
 
 
 @dataclass(frozen=True)
 class Result:
-    """What one run cost, and what the theorem allows."""
+    """The cost of one run and its bound."""
 
     spent: Expense
     bound: Expense
     asked: Counter[str]  # queries by kind
-    mistakes: dict[PolicyKey, int]  # of each policy
+    mistakes: dict[PolicyKey, int]  # by policy
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +55,7 @@ class TaskStart:
 
 
 class HalvingLearner:
-    """Stands in for `Learner`: mu and pi_g, or the flat policy, each a version space."""
+    """A replacement for `Learner` whose policies (mu and all pi_g, or the flat policy) are version spaces."""
 
     def __init__(self, task: Task, classes: Classes, flat: bool) -> None:
         self._task, self._flat = task, flat
@@ -70,7 +70,7 @@ class HalvingLearner:
         return TaskStart(observed(self._task.first_state(instance)), instance)
 
     def roll_out(self, s: "TaskStart") -> Trajectory:
-        """Roll out the present majorities from s."""
+        """Return the trajectory of the current policies from s."""
         horizons, sigma, state = self._task.horizons, list[Segment](), s.state
         if self._flat:
             return (self._execute(None, s.instance, state, horizons.full),)
@@ -88,22 +88,22 @@ class HalvingLearner:
         return Segment(subgoal, tuple(states), tuple(actions), terminated=False)
 
     def learn(self, labels: Labels) -> None:
-        """Remove policies that erred."""
+        """Remove the policies that contradict the labels."""
         for key, rows in rows_of(labels).items():
             self.policies[key].learn(rows)
 
 
 class PricedExpert:
-    """The task's oracle, with an account."""
+    """The task's oracle, which also records the costs of its answers."""
 
     def __init__(self, task: Task, prices: wire.Prices) -> None:
-        # The task has of a domain what questions and answers need, and no environment.
+        # The task has no environment, but everything else that queries and answers need from a domain.
         self._domain, self._prices = cast(Domain, task), prices
         self._expert = OracleExpert(self._domain)
         self.spent, self.asked = Counter[str](), Counter[str]()  # micro-units and queries, by kind
 
     def carry_out(self, episode: Generator[Query, Any, Labels], instance: Any, number: int) -> Labels:
-        """Answer all that the episode of this number asks; return its labels."""
+        """Answer all queries of an episode and return its labels; `number` is the episode's number."""
         translator = Translator(self._domain, instance)
         answer: Answer | None = None
         try:
@@ -119,13 +119,13 @@ class PricedExpert:
 
 
 def simulate(cell: Cell, seed: int, rounds: int, flat: bool, episodes: Episodes) -> Result:
-    """Run one learner.
+    """Simulate one learner for `rounds` episodes, and return its cost and its bound.
 
-    Task and expert depend on the cell and the seed alone, so both learners meet the same, and the same random episodes.
+    Task, expert and random episodes depend only on the cell and the seed, so they are the same for both learners.
     """
     rng = np.random.default_rng([seed, cell.h_hi, cell.h_lo, cell.n_mu, cell.n_pi, cell.n_subgoals])
     classes = draw_classes(cell, rng)
-    task, prices = Task(cell, classes, rng), wire.Prices()  # the paper's
+    task, prices = Task(cell, classes, rng), wire.Prices()  # the paper's prices
     learner, expert = HalvingLearner(task, classes, flat), PricedExpert(task, prices)
     for t in range(rounds):
         hard = worst_instance(task, classes, learner.policies) if episodes == "worst" else None

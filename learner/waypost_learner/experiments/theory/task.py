@@ -1,21 +1,22 @@
-"""The task on which the policies of the analysis act: a walk on a ring, and its expert.
+"""Defines the task of the simulation and its expert: a walk on a ring of positions.
 
-A state is (u, x, t): the position where the segment began, the present position, the steps taken. Action a at step t
-leads to x' = shuffle[x + a] + wind[t], modulo the ring. Start and wind are the episode's instance, so the task is
-deterministic, and new in each episode. Every segment has H_LO steps and every episode H_HI segments: both learners know
-the terminations, and the state tells u. So mu(u), pi_g(x) and the flat policy pi_{mu(u)}(x) are functions of the state.
+A state is (u, x, t): the position where the segment began, the current position, and the number of steps so far.
+Action a at step t leads to x' = shuffle[x + a] + wind[t], modulo the size of the ring. The instance of an episode
+consists of its start and its wind, so the task is deterministic, but different in each episode. Every segment has H_LO
+steps and every episode H_HI segments, so both learners know the terminations. The state contains u, so mu(u), pi_g(x)
+and the flat policy pi_{mu(u)}(x) are functions of the state.
 
-Both inspections look at the last state alone, which is what makes them O(1) in the paper: Inspect_FULL passes where
-the expert would have ended from the same start, Inspect_LO where pi*_g would have ended from the segment's first state.
-What the proofs of Theorems 1 and 2 need is that a Fail implies a labeled mistake:
+Both inspections check only the last state, as the paper assumes for inspections of O(1). Inspect_FULL passes if the
+expert would have ended in the same state from the same start. Inspect_LO passes if pi*_g would have ended in the same
+state from the segment's first state. The proofs of Theorems 1 and 2 need that a Fail implies a labeled mistake:
 
-- If no action of tau_FULL differs from the expert's in its state, tau_FULL is the expert's own and passes. So after a
-  Fail, Label_FULL shows flat DAgger a mistake.
-- If no subgoal differs from mu* in its state and every segment passes Inspect_LO, the segments end one after the other
-  where the expert's end, and the episode passes. So after a Fail, Label_HI shows a mistake of mu, or hg-DAgger reaches
-  a segment that fails; and there pi_g, with g = mu*(u), made a mistake that Label_LO shows, for the first reason.
+- Flat DAgger: if all actions of tau_FULL are the expert's, then tau_FULL is the expert's trajectory and passes. So
+  after a Fail, Label_FULL shows a mistake.
+- hg-DAgger: if all subgoals agree with mu* and all segments pass Inspect_LO, then each segment ends where the expert's
+  ends, and the episode passes. So after a Fail, either Label_HI shows a mistake of mu, or hg-DAgger reaches a segment
+  that fails. In that segment pi_g, with g = mu*(u), made a mistake, and Label_LO shows it.
 
-A trajectory may also be wrong and end in the right state. It passes, and neither costs nor teaches anything more.
+A wrong trajectory can end in the right state. Then it passes, costs nothing more, and teaches nothing.
 """
 
 from collections.abc import Sequence
@@ -29,7 +30,7 @@ from waypost_learner.experiments.theory.classes import N_ACTIONS, N_POSITIONS, C
 
 
 class Task:
-    """The walk: of a `Domain` what questions and answers need, and its `Oracle`."""
+    """The walk. It has the members of `Domain` that queries and answers need, and it is its own `Oracle`."""
 
     def __init__(self, cell: Cell, classes: Classes, rng: np.random.Generator) -> None:
         self.horizons = Horizons(lo=cell.h_lo, hi=cell.h_hi, full=cell.h_hi * cell.h_lo)
@@ -41,7 +42,7 @@ class Task:
 
     @property
     def oracle(self) -> "Task":
-        """mu* and pi*_g."""
+        """The expert with mu* and pi*_g: the task itself."""
         return self
 
     def draw_instance(self, rng: np.random.Generator) -> Any:
@@ -50,7 +51,7 @@ class Task:
         return {"start": int(rng.integers(N_POSITIONS)), "wind": wind.tolist()}
 
     def steered(self, positions: Sequence[int], actions: Sequence[Action]) -> Any:
-        """Return the instance in which who acts like this walks over these positions, [H_FULL] each."""
+        """Return the instance in which these actions lead over these positions; both have H_FULL entries."""
         ahead = [*positions[1:], positions[0]]
         steps = zip(positions, actions, ahead, strict=True)
         wind = [(there - self._shuffle[(x + a) % N_POSITIONS]) % N_POSITIONS for x, a, there in steps]
@@ -65,7 +66,7 @@ class Task:
         return [instance["start"], instance["start"], 0]
 
     def successor(self, instance: Any, state: Any, action: Action) -> Any:
-        """Return the state after an action; after every H_LO of them a new segment begins."""
+        """Return the state after an action; a new segment begins after every H_LO actions."""
         u, x, t = state
         x = (self._shuffle[(x + action) % N_POSITIONS] + instance["wind"][t]) % N_POSITIONS
         return [x if (t + 1) % self.horizons.lo == 0 else u, x, t + 1]
@@ -81,11 +82,11 @@ class Task:
         return [self._pi_star[subgoal][state[1]]]
 
     def reached(self, instance: Any, origin: Any, state: Any, subgoal: Subgoal) -> bool:
-        """Return whether pi*_g, begun in `origin`, would have ended in `state`."""
+        """Return whether pi*_g ends in `state` if it starts in `origin`."""
         return bool(state == self._carried_out(instance, origin, subgoal))
 
     def succeeded(self, instance: Any, state: Any) -> bool:
-        """Return whether the expert would have ended in `state`."""
+        """Return whether the expert ends in `state` if it starts in the instance's first state."""
         end = self.first_state(instance)
         for _ in range(self.horizons.hi):
             end = self._carried_out(instance, end, self._mu_star[end[0]])
@@ -98,5 +99,5 @@ class Task:
 
 
 def observed(state: Any) -> State:
-    """Return a state as policies see it, float32[2]: u and x."""
+    """Return the `State` of a JSON view; its observation is float32[2], u and x."""
     return State(np.array(state[:2], np.float32), state)
