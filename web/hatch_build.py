@@ -1,4 +1,4 @@
-"""Hatchling hook: puts the built page into the wheel, as `waypost_server/static`."""
+"""Adds the built web app to the wheel as `waypost_server/static` (a Hatchling build hook)."""
 
 import shutil
 import subprocess
@@ -9,10 +9,10 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 
 class PageBuildHook(BuildHookInterface):
-    """Builds the page if it is not built; an editable install serves `web/dist` and needs nothing."""
+    """Builds the web app if necessary. An editable install serves `web/dist` directly, so it needs no build."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build the page and have the wheel include it."""
+        """Build the web app and include it in the wheel."""
         if version == "editable" or self.target_name != "wheel":
             return
         web = Path(self.root) / "web"
@@ -23,18 +23,18 @@ class PageBuildHook(BuildHookInterface):
 
 
 def build_page(web: Path) -> None:
-    """Run npm.
+    """Build the web app with npm.
 
     Raises:
-        RuntimeError: if there is no npm, or it fails.
+        RuntimeError: npm is not installed, or it failed.
     """
     npm = shutil.which("npm")
     if npm is None:
         raise RuntimeError(
-            "Waypost's page is not built and npm is not on PATH. Install Node.js 20.19 or newer, "
-            "or build web/dist elsewhere (npm ci && npm run build in web/) and copy it here."
+            "The web app of Waypost is not built, and npm is not on the PATH. Install Node.js 20.19 or newer, "
+            "or build web/dist on another machine (npm ci && npm run build in web/) and copy it here."
         )
     for arguments in (["ci"], ["run", "build"]):
         done = subprocess.run([npm, *arguments], cwd=web, check=False)  # noqa: S603
         if done.returncode != 0:
-            raise RuntimeError(f"`npm {' '.join(arguments)}` failed in {web}; its output above says why.")
+            raise RuntimeError(f"`npm {' '.join(arguments)}` failed in {web}; see its output above.")

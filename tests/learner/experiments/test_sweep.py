@@ -147,7 +147,7 @@ def test_two_sweeps_do_not_work_in_the_same_place(tmp_path: Path) -> None:
     (tmp_path / "checkpoints").mkdir()
     with (tmp_path / "checkpoints" / "sweep.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        with pytest.raises(ValueError, match="another sweep is at work"):
+        with pytest.raises(ValueError, match="another sweep is running"):
             sweep(RUNS[:1], place(tmp_path), jobs=1, backend="sequential")
 
 
