@@ -92,7 +92,11 @@ FAULTS: list[tuple[str, Callable[[Arrays], Any], str]] = [
     ("no mazes", instead("lava", lambda a: a[:0]), "`lava` has no mazes"),
     ("too few starts", instead("start", lambda a: a[:2]), "`start` has 2 rows, but `lava` has 3 mazes"),
     ("too many goals", instead("goal", lambda a: np.r_[a, a]), "`goal` has 6 rows, but `lava` has 3 mazes"),
-    ("start on lava", instead("start", at(1, (0, 5))), "`start` of maze 1 is (0, 5), which is not a free cell of a room"),
+    (
+        "start on lava",
+        instead("start", at(1, (0, 5))),
+        "`start` of maze 1 is (0, 5), which is not a free cell of a room",
+    ),
     ("start outside", instead("start", at(2, (5, 17))), "`start` of maze 2 is (5, 17)"),
     ("start below zero", instead("start", at(0, (-1, 3))), "`start` of maze 0 is (-1, 3)"),
     ("goal on a wall line", instead("goal", at(1, (4, 4))), "`goal` of maze 1 is (4, 4)"),
