@@ -115,19 +115,19 @@ def annotate(url: str, headers: dict[str, str], run: str, until: float, chained:
     """Answer queries until the time `until`; return the seconds of each cycle and the ids of the answered queries."""
     seconds: list[float] = []
     answered: list[int] = []
-    held: dict[str, Any] | None = None
+    assignment: dict[str, Any] | None = None
     with httpx2.Client(base_url=f"{url}/api/v1", headers=headers, timeout=60) as client:
         while time.perf_counter() < until:
             start = time.perf_counter()
-            if held is None:
-                held = client.post("/assignments", json={"run": run, "wait": 5}).json()
-            body: dict[str, Any] = {"token": held["token"], "answer": {"kind": "inspect_lo", "verdict": "pass"}}
+            if assignment is None:
+                assignment = client.post("/assignments", json={"run": run, "wait": 5}).json()
+            body: dict[str, Any] = {"token": assignment["token"], "answer": {"kind": "inspect_lo", "verdict": "pass"}}
             if chained:
                 body["next"] = {"run": run, "wait": 5}
-            receipt = client.post(f"/assignments/{held['id']}/answer", json=body).raise_for_status().json()
+            receipt = client.post(f"/assignments/{assignment['id']}/answer", json=body).raise_for_status().json()
             seconds.append(time.perf_counter() - start)
             answered.append(receipt["query"])
-            held = receipt["next"]
+            assignment = receipt["next"]
     return seconds, answered
 
 

@@ -147,24 +147,24 @@ def legend(figure: Figure, entries: Sequence[tuple[str, Style]], explanation: st
         )
 
 
-def percent_axis(axes: Axes, of: str) -> None:
-    """Format the y axis for a success rate in percent, with the label `of`."""
+def percent_axis(axes: Axes, label: str) -> None:
+    """Format the y axis for a success rate in percent, with a label."""
     axes.set_ylim(-2, 102)
     axes.yaxis.set_major_formatter(StrMethodFormatter("{x:.0f}%"))
-    axes.set_ylabel(of)
+    axes.set_ylabel(label)
 
 
-def count_axis(axis: Any, what: str) -> None:
+def count_axis(axis: Any, label: str) -> None:
     """Format the ticks of an axis as whole numbers, and set its label."""
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
-    axis.set_label_text(what)
+    axis.set_label_text(label)
 
 
-def log_axis(axis: Any, what: str) -> None:
+def log_axis(axis: Any, label: str) -> None:
     """Make the x axis logarithmic from 100 on, and set its label."""
     axis.axes.set_xscale("log")
     axis.axes.set_xlim(left=100)
-    count_axis(axis, what)
+    count_axis(axis, label)
 
     def between(value: float, _: int | None) -> str:
         low, high = axis.get_view_interval()

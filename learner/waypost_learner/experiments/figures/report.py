@@ -34,21 +34,21 @@ def write(
         missing: descriptions of the missing and unfinished runs.
     """
     file.parent.mkdir(parents=True, exist_ok=True)
-    beside = Path(os.path.relpath(folder, file.parent)).as_posix()
-    lines = list(_lines(beside, comparisons, figures, commands, missing))
+    link = Path(os.path.relpath(folder, file.parent)).as_posix()
+    lines = list(_lines(link, comparisons, figures, commands, missing))
     file.write_text("\n".join(lines), encoding="utf-8")
 
 
 def _lines(
-    beside: str,
+    link: str,
     comparisons: Sequence[Comparison],
     figures: Sequence[str],
     commands: Sequence[str],
     missing: Sequence[str],
 ) -> Iterator[str]:
     yield from ("# Results", "", _INTRODUCTION, "", "```sh", *commands, "```", "")
-    yield f"[{archive.FILE}]({beside}/{archive.FILE}) has one row per run and episode."
-    yield from (f"[{tables.FILE}]({beside}/{tables.FILE}) has the numbers of the tables.", "")
+    yield f"[{archive.FILE}]({link}/{archive.FILE}) has one row per run and episode."
+    yield from (f"[{tables.FILE}]({link}/{tables.FILE}) has the numbers of the tables.", "")
     if missing:
         yield from ("These runs are missing or unfinished. An unfinished run is drawn up to its last episode.", "")
         yield from (*(f"- {one}" for one in missing), "")
@@ -58,4 +58,4 @@ def _lines(
         yield from tables.markdown(comparison)
         for name in figures:
             if name.startswith(f"{group.name}-"):
-                yield from (f"![{name.replace('-', ' ')}]({beside}/{name}.svg)", "")
+                yield from (f"![{name.replace('-', ' ')}]({link}/{name}.svg)", "")
