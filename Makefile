@@ -1,5 +1,5 @@
-# Every target sets up what it needs by itself; nothing has to be typed before it.
-# Pass a command's options on with ARGS, as in: make demo ARGS="--port 8001"
+# Every target first installs what it needs, so no other command is necessary before it.
+# ARGS passes options to the command: make demo ARGS="--port 8001"
 
 VENV := .venv
 PEERS := $(VENV)/peers
@@ -14,15 +14,15 @@ PYTEST_ARGS ?=
 .DELETE_ON_ERROR:
 
 help:
-	@echo "make demo    a server, a learner and a bot on this machine; prints one link to open"
-	@echo "make serve   the server alone"
-	@echo "make test    every check and every test"
-	@echo "make lint    the checks alone: style, types, import contracts"
-	@echo "make bench   measurements, as tables"
-	@echo "make web     build the page"
-	@echo "make clean   remove what the others made, but no store and no checkpoint"
+	@echo "make demo    run a server, a learner and a bot on this machine; print a link to open"
+	@echo "make serve   run only the server"
+	@echo "make test    run every check and every test"
+	@echo "make lint    run only the checks: style, types, import contracts"
+	@echo "make bench   measure, and print tables"
+	@echo "make web     build the web app"
+	@echo "make clean   remove everything that the other targets made, except stores and checkpoints"
 
-# --- what a reader types
+# --- targets for users
 
 demo: $(VENV)/.learner $(if $(filter yes,$(shell scripts/page-is-current)),,web/dist/index.html)
 	@exec $(PYTHON) -m waypost_learner.cli demo $(ARGS)
@@ -32,8 +32,8 @@ serve: $(VENV)/.base $(if $(filter yes,$(shell scripts/page-is-current)),,web/di
 
 web: web/dist/index.html
 
-# pytest comes last, so that its summary is the last thing said. Not with --dist loadscope: it runs tests of one name,
-# as those made of the API's description are, once.
+# pytest runs last, so that its summary is the end of the output. It runs without --dist loadscope, which would run only
+# one of several tests with the same name; the tests that are generated from the API's description have the same name.
 test: lint test-web $(VENV)/.dev web/dist/index.html
 	@SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/postgresql
 	@chromium="$$(SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/chromium)" && \
@@ -65,9 +65,9 @@ clean:
 	  .hypothesis build dist
 	find sdk server learner tests bench -name __pycache__ -type d -prune -exec rm -rf {} +
 
-# --- how it is set up; a stamp says that a step is done for what is in pyproject.toml or package-lock.json now
+# --- installation; a stamp file says that a step is done for the current pyproject.toml or package-lock.json
 
-# A virtual environment of another folder, or one whose Python is gone, is no good: forget its stamps.
+# A virtual environment that was made for another folder, or whose Python is missing, does not work: remove its stamps.
 ifneq ($(shell scripts/venv-works $(VENV)),yes)
 $(shell rm -f $(VENV)/.made $(VENV)/.base $(VENV)/.learner $(VENV)/.dev)
 endif
@@ -90,25 +90,26 @@ $(VENV)/.learner: pyproject.toml $(VENV)/.made
 	@touch $(VENV)/.base $@
 
 $(VENV)/.dev: pyproject.toml $(VENV)/.made
-	@echo "Installing the Python packages, those of the tests too; PyTorch is large, so the first time takes a minute or more."
+	@echo "Installing the Python packages, including those of the tests; PyTorch is large, so the first time takes a minute or more."
 	@$(PIP) install -e '.[learner,dev]'
 	@touch $(VENV)/.base $(VENV)/.learner $@
 
-# What bench/ measures beside ours needs packages that ours cannot live with. Without it the tables say so.
+# The libraries that bench/ compares with ours need packages that conflict with ours, so they have their own environment.
+# If they are missing, the tables say so.
 $(PEERS)/.installed: bench/peers/requirements.txt $(VENV)/.made
-	@echo "Installing what the measurements compare with; it has a PyTorch of its own, so this takes some minutes."
+	@echo "Installing the libraries for the comparisons; they include another PyTorch, so this takes some minutes."
 	@if PYTHON_FOR_VENV=$(PYTHON) scripts/make-venv $(PEERS) && \
 	  $(PEERS)/bin/python -m pip --disable-pip-version-check -qq install -r $<; \
-	then touch $@; else echo "It could not be installed; the measurements go on without it."; fi
+	then touch $@; else echo "They could not be installed; the measurements continue without them."; fi
 
-# Where there is no recent Node, scripts/with-node brings one into the virtual environment.
+# If there is no recent Node, scripts/with-node installs one in the virtual environment.
 web/node_modules/.stamp: web/package.json web/package-lock.json | $(VENV)/.made
-	@echo "Installing the page's npm packages."
+	@echo "Installing the npm packages of the web app."
 	@cd web && ../$(WITH_NODE) npm ci --no-audit --no-fund --loglevel=error
 	@touch $@
 
 web/dist/index.html: web/node_modules/.stamp web/index.html web/vite.config.ts web/svelte.config.js web/tsconfig.json \
   $(shell find web/src web/public -type f ! -name '*.test.ts')
-	@echo "Building the page."
+	@echo "Building the web app."
 	@cd web && ../$(WITH_NODE) npm run --silent build -- --logLevel warn
 	@touch $@

@@ -1,4 +1,4 @@
-"""Hatchling hook: puts the built page into the wheel, as `waypost_server/static`."""
+"""Adds the built web app to the wheel, as `waypost_server/static`. Hatchling calls this hook."""
 
 import shutil
 import subprocess
@@ -9,10 +9,10 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 
 class PageBuildHook(BuildHookInterface):
-    """Builds the page if it is not built; an editable install serves `web/dist` and needs nothing."""
+    """Builds the web app if it is not built. An editable install needs no hook, because it serves `web/dist`."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build the page and have the wheel include it."""
+        """Build the web app if needed, and add it to the wheel."""
         if version == "editable" or self.target_name != "wheel":
             return
         web = Path(self.root) / "web"
@@ -26,12 +26,12 @@ def build_page(web: Path) -> None:
     """Run npm.
 
     Raises:
-        RuntimeError: if there is no npm, or it fails.
+        RuntimeError: npm is missing or fails.
     """
     npm = shutil.which("npm")
     if npm is None:
         raise RuntimeError(
-            "Waypost's page is not built and npm is not on PATH. Install Node.js 20.19 or newer, "
+            "The web app is not built and npm is not on PATH. Install Node.js 20.19 or newer, "
             "or build web/dist elsewhere (npm ci && npm run build in web/) and copy it here."
         )
     for arguments in (["ci"], ["run", "build"]):

@@ -948,56 +948,62 @@ export interface components {
     schemas: {
         /**
          * AnswerPage
-         * @description Answers in the order they were given, after a cursor; `cursor` is where to go on.
+         * @description Answered queries after a cursor, in the order of the answers, sent by the server.
          */
         AnswerPage: {
             /** Queries */
             queries: components["schemas"]["Query"][];
-            /** Cursor */
+            /**
+             * Cursor
+             * @description The cursor for the next request.
+             */
             cursor: number;
         };
         /**
          * AnswerPost
-         * @description An answer. Sending it again (same assignment, same content) returns the same receipt and costs nothing.
+         * @description An answer, sent by an annotator. Sending it again returns the same receipt and costs nothing.
          */
         AnswerPost: {
-            /** Token */
+            /**
+             * Token
+             * @description The token of the assignment.
+             */
             token: string;
             /** Answer */
             answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
-            /** @description Lease the next query in the same call; null for none. */
+            /** @description Which query to lease in the same call; null for none. */
             next?: components["schemas"]["Lease"] | null;
         };
         /**
          * AskHierDemo
-         * @description HierDemo(s): carry out the task from state s and return the hierarchical trajectory, or a flat learner's.
+         * @description HierDemo(s): carry out the task from state s, and return the hierarchical trajectory (or a flat one).
          */
         AskHierDemoInput: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1005,55 +1011,55 @@ export interface components {
              * @enum {string}
              */
             kind: "hier_demo";
-            /** @description s, where the demonstration starts. */
+            /** @description s, the first state of the demonstration. */
             state: components["schemas"]["JsonValue"];
             /**
              * Flat
-             * @description Only actions are wanted: one segment without a subgoal.
+             * @description Whether to return only actions: one segment without a subgoal.
              * @default false
              */
             flat: boolean;
             /**
              * Max Segments
-             * @description H_HI: a demonstration has at most so many segments.
+             * @description H_HI, the largest number of segments.
              */
             max_segments: number;
             /**
              * Max Actions
-             * @description H_FULL: and at most so many actions in all.
+             * @description H_FULL, the largest number of actions in all segments.
              */
             max_actions: number;
         };
         /**
          * AskHierDemo
-         * @description HierDemo(s): carry out the task from state s and return the hierarchical trajectory, or a flat learner's.
+         * @description HierDemo(s): carry out the task from state s, and return the hierarchical trajectory (or a flat one).
          */
         AskHierDemo: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context: components["schemas"]["Segment"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1061,55 +1067,55 @@ export interface components {
              * @enum {string}
              */
             kind: "hier_demo";
-            /** @description s, where the demonstration starts. */
+            /** @description s, the first state of the demonstration. */
             state: components["schemas"]["JsonValue"];
             /**
              * Flat
-             * @description Only actions are wanted: one segment without a subgoal.
+             * @description Whether to return only actions: one segment without a subgoal.
              * @default false
              */
             flat: boolean;
             /**
              * Max Segments
-             * @description H_HI: a demonstration has at most so many segments.
+             * @description H_HI, the largest number of segments.
              */
             max_segments: number;
             /**
              * Max Actions
-             * @description H_FULL: and at most so many actions in all.
+             * @description H_FULL, the largest number of actions in all segments.
              */
             max_actions: number;
         };
         /**
          * AskInspectFull
-         * @description Inspect_FULL(tau_FULL): was the overall goal accomplished?
+         * @description Inspect_FULL(tau_FULL): decide whether the episode accomplished the whole task.
          */
         AskInspectFullInput: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1117,39 +1123,42 @@ export interface components {
              * @enum {string}
              */
             kind: "inspect_full";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segments of the episode, in order.
+             */
             segments: components["schemas"]["SegmentInput"][];
         };
         /**
          * AskInspectFull
-         * @description Inspect_FULL(tau_FULL): was the overall goal accomplished?
+         * @description Inspect_FULL(tau_FULL): decide whether the episode accomplished the whole task.
          */
         AskInspectFull: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context: components["schemas"]["Segment"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1157,39 +1166,42 @@ export interface components {
              * @enum {string}
              */
             kind: "inspect_full";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segments of the episode, in order.
+             */
             segments: components["schemas"]["Segment"][];
         };
         /**
          * AskInspectLo
-         * @description Inspect_LO(tau; g): did this one segment accomplish its subgoal?
+         * @description Inspect_LO(tau; g): decide whether this segment accomplished its subgoal.
          */
         AskInspectLoInput: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1197,39 +1209,42 @@ export interface components {
              * @enum {string}
              */
             kind: "inspect_lo";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segment to inspect.
+             */
             segments: components["schemas"]["SegmentInput"][];
         };
         /**
          * AskInspectLo
-         * @description Inspect_LO(tau; g): did this one segment accomplish its subgoal?
+         * @description Inspect_LO(tau; g): decide whether this segment accomplished its subgoal.
          */
         AskInspectLo: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context: components["schemas"]["Segment"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1237,39 +1252,42 @@ export interface components {
              * @enum {string}
              */
             kind: "inspect_lo";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segment to inspect.
+             */
             segments: components["schemas"]["Segment"][];
         };
         /**
          * AskLabelFull
-         * @description Label_FULL(tau_FULL): a good action at each state of the full trajectory.
+         * @description Label_FULL(tau_FULL): choose a good action for each state of the full trajectory.
          */
         AskLabelFullInput: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1277,39 +1295,42 @@ export interface components {
              * @enum {string}
              */
             kind: "label_full";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segments of the episode, in order.
+             */
             segments: components["schemas"]["SegmentInput"][];
         };
         /**
          * AskLabelFull
-         * @description Label_FULL(tau_FULL): a good action at each state of the full trajectory.
+         * @description Label_FULL(tau_FULL): choose a good action for each state of the full trajectory.
          */
         AskLabelFull: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context: components["schemas"]["Segment"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1317,39 +1338,42 @@ export interface components {
              * @enum {string}
              */
             kind: "label_full";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segments of the episode, in order.
+             */
             segments: components["schemas"]["Segment"][];
         };
         /**
          * AskLabelHi
-         * @description Label_HI(tau_HI): a good subgoal at the first state of each segment.
+         * @description Label_HI(tau_HI): choose a good subgoal for the first state of each segment.
          */
         AskLabelHiInput: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1357,39 +1381,42 @@ export interface components {
              * @enum {string}
              */
             kind: "label_hi";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segments to label, in order.
+             */
             segments: components["schemas"]["SegmentInput"][];
         };
         /**
          * AskLabelHi
-         * @description Label_HI(tau_HI): a good subgoal at the first state of each segment.
+         * @description Label_HI(tau_HI): choose a good subgoal for the first state of each segment.
          */
         AskLabelHi: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context: components["schemas"]["Segment"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1397,39 +1424,42 @@ export interface components {
              * @enum {string}
              */
             kind: "label_hi";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segments to label, in order.
+             */
             segments: components["schemas"]["Segment"][];
         };
         /**
          * AskLabelLo
-         * @description Label_LO(tau; g): a good action at each state of this one segment, and where it should have ended.
+         * @description Label_LO(tau; g): choose a good action for each state of this segment, and mark where it should have ended.
          */
         AskLabelLoInput: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context?: components["schemas"]["SegmentInput"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1437,39 +1467,42 @@ export interface components {
              * @enum {string}
              */
             kind: "label_lo";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segment to label.
+             */
             segments: components["schemas"]["SegmentInput"][];
         };
         /**
          * AskLabelLo
-         * @description Label_LO(tau; g): a good action at each state of this one segment, and where it should have ended.
+         * @description Label_LO(tau; g): choose a good action for each state of this segment, and mark where it should have ended.
          */
         AskLabelLo: {
             /**
              * Episode
-             * @description Which episode of the run asks.
+             * @description The number of the episode in the run, from 0.
              */
             episode: number;
             /**
              * Ordinal
-             * @description Which query of that episode this is, from 0.
+             * @description The number of the query in the episode, from 0.
              */
             ordinal: number;
             /**
              * Question
-             * @description The question in words, for a person.
+             * @description The query in words, for people.
              */
             question: string;
-            /** @description The environment instance, in the domain's JSON view. */
+            /** @description The environment instance, as a JSON view of the domain. */
             instance: components["schemas"]["JsonValue"];
             /**
              * Context
-             * @description Segments that came before, shown but not asked about.
+             * @description Earlier segments, which are shown but not part of the query.
              */
             context: components["schemas"]["Segment"][];
             /**
              * Suggestion
-             * @description The learner's own choice, as an answer to this query; what it did, not what is right.
+             * @description The learner's own choices in the form of an answer; they may be wrong.
              */
             suggestion: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
@@ -1477,26 +1510,31 @@ export interface components {
              * @enum {string}
              */
             kind: "label_lo";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segment to label.
+             */
             segments: components["schemas"]["Segment"][];
         };
         /**
          * AskList
-         * @description One or more queries of one run. Asking again with the same (episode, ordinal) and content changes nothing.
+         * @description One or more queries of one run, sent by the learner.
+         *
+         *     Sending a query again with the same episode, ordinal and content changes nothing.
          */
         AskList: {
             /** Queries */
             queries: (components["schemas"]["AskHierDemoInput"] | components["schemas"]["AskInspectFullInput"] | components["schemas"]["AskLabelHiInput"] | components["schemas"]["AskInspectLoInput"] | components["schemas"]["AskLabelLoInput"] | components["schemas"]["AskLabelFullInput"])[];
             /**
              * Priority
-             * @description Higher is handed out first.
+             * @description Queries with a higher priority are handed out first.
              * @default 0
              */
             priority: number;
         };
         /**
          * Asked
-         * @description The reply to `POST /runs/{id}/queries`: the queries in the order asked, old ones with their answers.
+         * @description The server's reply to `POST /runs/{id}/queries`: the queries in the same order, with answers if they have any.
          */
         Asked: {
             /** Queries */
@@ -1504,27 +1542,39 @@ export interface components {
         };
         /**
          * Assignment
-         * @description One query handed to one annotator under a lease. Only `token` and an unexpired lease can answer it.
+         * @description One query leased to one annotator, sent by the server. To answer, send `token` before the lease expires.
          */
         Assignment: {
             /** Id */
             id: number;
-            /** Token */
+            /**
+             * Token
+             * @description The secret that proves the lease in every call about this assignment.
+             */
             token: string;
             query: components["schemas"]["Query"];
             run: components["schemas"]["Run"];
-            /** @description What the answer will cost. */
+            /** @description The price of the answer. */
             price: components["schemas"]["Price"];
-            /** Leased At */
+            /**
+             * Leased At
+             * @description When the lease began, in seconds since the epoch.
+             */
             leased_at: number;
-            /** Expires At */
+            /**
+             * Expires At
+             * @description When the lease expires without a renewal, in seconds since the epoch.
+             */
             expires_at: number;
-            /** Lease Seconds */
+            /**
+             * Lease Seconds
+             * @description The length of a lease and of each renewal, in seconds.
+             */
             lease_seconds: number;
         };
         /**
          * AssignmentList
-         * @description The caller's live assignments, oldest first: what a reloaded page goes on with.
+         * @description The caller's live assignments, oldest first, sent by the server. A reloaded web app continues with them.
          */
         AssignmentList: {
             /** Assignments */
@@ -1532,29 +1582,38 @@ export interface components {
         };
         /**
          * AtWork
-         * @description An annotator who asked for work of late or holds a query.
+         * @description An annotator who recently asked for work or holds a query, sent by the server.
          */
         AtWork: {
-            /** Annotator */
+            /**
+             * Annotator
+             * @description The name of the user.
+             */
             annotator: string;
             /**
              * Run
-             * @description The run asked for; null for any.
+             * @description The id of the requested run; null for any run.
              */
             run: string | null;
             /**
              * Kinds
-             * @description The kinds asked for; null for any.
+             * @description The requested kinds of queries; null for all kinds.
              */
             kinds: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full")[] | null;
-            /** Seen At */
+            /**
+             * Seen At
+             * @description When they last asked for work or renewed a lease, in seconds since the epoch.
+             */
             seen_at: number;
-            /** Holds */
+            /**
+             * Holds
+             * @description The queries that they hold, oldest first.
+             */
             holds: components["schemas"]["Holding"][];
         };
         /**
          * AtWorkList
-         * @description Who is at work, the one seen last first.
+         * @description The annotators who are working, most recently seen first; sent by the server.
          */
         AtWorkList: {
             /** Annotators */
@@ -1562,55 +1621,88 @@ export interface components {
         };
         /**
          * Change
-         * @description Something changed in some run, as sent by server-sent events.
+         * @description A server-sent event: something changed in some run.
          */
         Change: {
             /**
              * Newest
-             * @description The newest event of any run.
+             * @description The id of the newest event of all runs.
              */
             newest: number;
         };
         /**
          * CostOfKind
-         * @description The ledger's sum for one kind of query.
+         * @description The sums of the ledger for one kind of query.
          */
         CostOfKind: {
-            /** Queries */
+            /**
+             * Queries
+             * @description The number of charged answers, without refunded ones.
+             */
             queries: number;
-            /** Units */
+            /**
+             * Units
+             * @description The cost, in units.
+             */
             units: number;
-            /** Lo Units */
+            /**
+             * Lo Units
+             * @description The part of `units` for LO labels: actions and terminations.
+             */
             lo_units: number;
-            /** Seconds */
+            /**
+             * Seconds
+             * @description The time from lease to answer, in seconds.
+             */
             seconds: number;
-            /** Active Seconds */
+            /**
+             * Active Seconds
+             * @description The annotators' working time without idle time, in seconds.
+             */
             active_seconds: number;
         };
         /**
          * Costs
-         * @description The ledger of a run.
+         * @description The sums of a run's ledger, sent by the server.
          */
         Costs: {
-            /** Total */
+            /**
+             * Total
+             * @description The total cost, in units.
+             */
             total: number;
-            /** Lo Total */
+            /**
+             * Lo Total
+             * @description The cost of LO labels (actions and terminations), in units.
+             */
             lo_total: number;
-            /** Seconds */
+            /**
+             * Seconds
+             * @description The annotators' time from lease to answer, in seconds.
+             */
             seconds: number;
-            /** Active Seconds */
+            /**
+             * Active Seconds
+             * @description The annotators' working time without idle time, in seconds.
+             */
             active_seconds: number;
             /** By Kind */
             by_kind: {
                 [key: string]: components["schemas"]["CostOfKind"];
             };
-            /** Reserved */
+            /**
+             * Reserved
+             * @description The units reserved for unanswered queries.
+             */
             reserved: number;
-            /** Budget */
+            /**
+             * Budget
+             * @description The highest total cost of the run, in units; null for no limit.
+             */
             budget: number | null;
             /**
              * First At
-             * @description By success level: "0.8", "0.9", "0.95", "0.99".
+             * @description By success level ("0.8", "0.9", "0.95", "0.99"): when it was first reached; null if it was not.
              */
             first_at: {
                 [key: string]: components["schemas"]["Milestone"] | null;
@@ -1618,71 +1710,88 @@ export interface components {
         };
         /**
          * Curves
-         * @description Columns of equal length, a row per reported episode; sums are cumulative up to and with that episode.
+         * @description The curves of a run as columns with one row per reported episode, sent by the server.
+         *
+         *     Sums are cumulative and include the episode of the row.
          */
         Curves: {
-            /** Episode */
+            /**
+             * Episode
+             * @description The number of the episode, from 0.
+             */
             episode: number[];
             /**
              * Success Rate
-             * @description Over the trailing 100 test episodes (fewer at the start).
+             * @description The success rate over the trailing 100 test episodes (fewer at the start), 0 to 1.
              */
             success_rate: (number | null)[];
-            /** Test Success */
+            /**
+             * Test Success
+             * @description Whether the test rollout succeeded; null if there was none.
+             */
             test_success: (boolean | null)[];
-            /** Cost */
+            /**
+             * Cost
+             * @description The total cost, in units.
+             */
             cost: number[];
             /**
              * Lo Cost
-             * @description Units spent on LO labels: actions and terminations.
+             * @description The cost of LO labels (actions and terminations), in units.
              */
             lo_cost: number[];
             /**
              * Seconds
-             * @description Annotators' seconds, from lease to answer.
+             * @description The annotators' time from lease to answer, in seconds.
              */
             seconds: number[];
             /**
              * Active Seconds
-             * @description Annotators' own time, without idle time.
+             * @description The annotators' working time without idle time, in seconds.
              */
             active_seconds: number[];
-            /** Cost By Kind */
+            /**
+             * Cost By Kind
+             * @description The cost by kind of query, in units.
+             */
             cost_by_kind: {
                 [key: string]: number[];
             };
             /**
              * Hi Labels
-             * @description Size of D_HI.
+             * @description The size of D_HI.
              */
             hi_labels: number[];
             /**
              * Lo Samples
-             * @description LO-level steps taken in training rollouts.
+             * @description The number of LO-level steps in training rollouts.
              */
             lo_samples: number[];
             /**
              * Learner Seconds
-             * @description The learner's wall time.
+             * @description The learner's wall time, in seconds.
              */
             learner_seconds: number[];
         };
         /**
          * DemoSegment
-         * @description One segment of a demonstration; its states follow from the actions.
+         * @description One segment of a demonstration. It has no states: the learner computes them from the actions.
          */
         DemoSegment: {
             /**
              * Subgoal
-             * @description The subgoal carried out; null in a flat demonstration.
+             * @description The subgoal of the segment; null in a flat demonstration.
              */
             subgoal: string | null;
-            /** Actions */
+            /**
+             * Actions
+             * @description a_1 .. a_H.
+             */
             actions: string[];
         };
         /**
          * EpisodeList
-         * @description Results to report, in episode order.
+         * @description Results of episodes, in their order, sent by the learner.
          */
         EpisodeList: {
             /** Episodes */
@@ -1690,61 +1799,81 @@ export interface components {
         };
         /**
          * EpisodeResult
-         * @description What one episode brought. Reporting it again, the seconds aside with the same content, changes nothing.
+         * @description The result of one episode, sent by the learner.
+         *
+         *     Sending it again changes nothing, if all fields except `seconds` are the same.
          */
         EpisodeResult: {
-            /** Episode */
+            /**
+             * Episode
+             * @description The number of the episode, from 0.
+             */
             episode: number;
             /**
              * Warm Start
-             * @description Whether this was a demonstration rather than a rollout.
+             * @description Whether the episode was a demonstration instead of a rollout.
              */
             warm_start: boolean;
             /**
              * Train Success
-             * @description Did the training rollout succeed? Null for a demonstration.
+             * @description Whether the training rollout succeeded; null for a demonstration.
              */
             train_success: boolean | null;
             /**
              * Test Success
-             * @description Did the test rollout on an unseen instance succeed?
+             * @description Whether the test rollout on an unseen instance succeeded; null if there was none.
              */
             test_success: boolean | null;
-            /** Train Steps */
+            /**
+             * Train Steps
+             * @description The learner's steps in the training rollout.
+             */
             train_steps: number;
-            /** Test Steps */
+            /**
+             * Test Steps
+             * @description The learner's steps in the test rollout.
+             */
             test_steps: number;
             /**
              * Hi Labels
-             * @description Size of D_HI after the episode.
+             * @description The size of D_HI after the episode.
              */
             hi_labels: number;
             /**
              * Lo Labels
-             * @description Size of all D_g (flat: of D) after the episode.
+             * @description The size of all D_g together (flat learner: of D) after the episode.
              */
             lo_labels: number;
             /**
              * Seconds
-             * @description The learner's wall time for the episode.
+             * @description The learner's wall time for the episode, in seconds.
              */
             seconds: number;
         };
         /**
          * Event
-         * @description One change of a run, as sent by server-sent events; `id` is the cursor to go on from.
+         * @description One change of a run, a server-sent event.
          */
         Event: {
-            /** Id */
+            /**
+             * Id
+             * @description The cursor: a client that reconnects continues after this id.
+             */
             id: number;
-            /** Run */
+            /**
+             * Run
+             * @description The id of the run.
+             */
             run: string;
             /**
              * Event
              * @enum {string}
              */
             event: "asked" | "answered" | "retracted" | "used" | "cancelled" | "episode" | "run";
-            /** At */
+            /**
+             * At
+             * @description When it happened, in seconds since the epoch.
+             */
             at: number;
             /** Data */
             data: {
@@ -1753,41 +1882,41 @@ export interface components {
         };
         /**
          * Feedback
-         * @description How good an answer was, label by label.
+         * @description The server's reply to a practice answer: each label compared with the correct ones.
          */
         Feedback: {
             /** Marks */
             marks: components["schemas"]["Mark"][];
             /**
              * Reasons
-             * @description Why, for each label.
+             * @description For each label, the reason why the correct labels are correct.
              */
             reasons: string[];
             /**
              * Is Right
-             * @description Whether all of them are right.
+             * @description Whether all labels are correct.
              */
             is_right: boolean;
         };
         /**
          * Frame
-         * @description A PNG and the hash that it goes by.
+         * @description A picture as a PNG file, identified by its hash.
          */
         Frame: {
             /**
              * Hash
-             * @description The SHA-256 of a PNG, in hexadecimal.
+             * @description The SHA-256 of a PNG file, in hexadecimal.
              */
             hash: string;
             /**
              * Png
-             * @description The file in base64.
+             * @description The PNG file in base64.
              */
             png: string;
         };
         /**
          * FrameHashes
-         * @description Frames by their hashes.
+         * @description Hashes of frames, sent by a learner to ask which frames are missing, and by the server as the reply.
          */
         FrameHashes: {
             /** Hashes */
@@ -1795,7 +1924,7 @@ export interface components {
         };
         /**
          * FrameUpload
-         * @description Frames to keep. Uploading one again changes nothing.
+         * @description Frames that a learner uploads. Uploading a frame again changes nothing.
          */
         FrameUpload: {
             /** Frames */
@@ -1803,7 +1932,7 @@ export interface components {
         };
         /**
          * Gold
-         * @description A gold query, and what annotators made of it.
+         * @description A gold query with its results so far, sent by the server.
          */
         Gold: {
             /** Id */
@@ -1813,33 +1942,45 @@ export interface components {
              * @enum {string}
              */
             kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
-            /** Question */
+            /**
+             * Question
+             * @description The query in words.
+             */
             question: string;
-            /** Known */
+            /**
+             * Known
+             * @description The correct answers.
+             */
             known: components["schemas"]["KnownVerdict"] | components["schemas"]["KnownSubgoals"] | components["schemas"]["KnownSegment"] | components["schemas"]["KnownActions"];
             /**
              * Query
-             * @description The query it was marked from.
+             * @description The id of the answered query it was made from; null if there is none.
              */
             query: number | null;
             /**
              * Author
-             * @description Who answered that; it is never put to them.
+             * @description The name of the user who answered that query; they never get it as gold.
              */
             author: string | null;
-            /** Answers */
+            /**
+             * Answers
+             * @description How often it was answered.
+             */
             answers: number;
             /**
              * Agreement
-             * @description The share of right labels over all annotators.
+             * @description The share of correct labels in all answers, 0 to 1; null if none.
              */
             agreement: number | null;
-            /** Created At */
+            /**
+             * Created At
+             * @description When it became gold, in seconds since the epoch.
+             */
             created_at: number;
         };
         /**
          * GoldList
-         * @description The gold queries of a run, newest first.
+         * @description The gold queries of a run, newest first, sent by the server.
          */
         GoldList: {
             /** Gold */
@@ -1847,20 +1988,23 @@ export interface components {
         };
         /**
          * GoldPost
-         * @description Queries to be gold in a run. What is gold already stays as it is.
+         * @description New gold queries of a run, sent by a learner or an administrator. Existing gold queries do not change.
          */
         GoldPost: {
             /**
              * Answered
-             * @description Queries of this run; right is just what was answered.
+             * @description Ids of answered queries of this run. Each answer becomes the only correct one.
              */
             answered?: number[];
-            /** Known */
+            /**
+             * Known
+             * @description Queries together with their correct answers.
+             */
             known?: components["schemas"]["KnownAsk"][];
         };
         /**
          * Health
-         * @description Alive, or ready to work.
+         * @description The server's reply when it is alive or ready.
          */
         Health: {
             /**
@@ -1868,12 +2012,15 @@ export interface components {
              * @constant
              */
             status: "ok";
-            /** Version */
+            /**
+             * Version
+             * @description The version of Waypost.
+             */
             version: string;
         };
         /**
          * HierDemoAnswer
-         * @description The expert's own trajectory: hierarchical, each segment ending where its subgoal is reached; or one flat one.
+         * @description The expert's own trajectory: segments that each end where the subgoal is reached, or one flat segment.
          */
         HierDemoAnswer: {
             /**
@@ -1881,31 +2028,46 @@ export interface components {
              * @enum {string}
              */
             kind: "hier_demo";
-            /** Segments */
+            /**
+             * Segments
+             * @description The segments in order.
+             */
             segments: components["schemas"]["DemoSegment"][];
         };
         /**
          * Holding
-         * @description A query somebody holds right now.
+         * @description A query that an annotator holds now, sent by the server.
          */
         Holding: {
-            /** Query */
+            /**
+             * Query
+             * @description The id of the query.
+             */
             query: number;
-            /** Run */
+            /**
+             * Run
+             * @description The id of the run.
+             */
             run: string;
             /**
              * Kind
              * @enum {string}
              */
             kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
-            /** Episode */
+            /**
+             * Episode
+             * @description The number of the episode in the run, from 0.
+             */
             episode: number;
-            /** Leased At */
+            /**
+             * Leased At
+             * @description When the lease began, in seconds since the epoch.
+             */
             leased_at: number;
         };
         /**
          * InspectAnswer
-         * @description Pass or Fail, for Inspect_FULL and Inspect_LO.
+         * @description Pass or Fail, the answer to Inspect_FULL and Inspect_LO.
          */
         InspectAnswer: {
             /**
@@ -1915,6 +2077,7 @@ export interface components {
             kind: "inspect_full" | "inspect_lo";
             /**
              * Verdict
+             * @description Whether the task (the subgoal) was accomplished.
              * @enum {string}
              */
             verdict: "pass" | "fail";
@@ -1922,7 +2085,7 @@ export interface components {
         JsonValue: unknown;
         /**
          * KnownActions
-         * @description The actions that are right, for each state of the full trajectory.
+         * @description The correct actions of a Label_FULL.
          */
         KnownActions: {
             /**
@@ -1930,22 +2093,28 @@ export interface components {
              * @enum {string}
              */
             kind: "label_full";
-            /** Actions */
+            /**
+             * Actions
+             * @description For each state of the full trajectory, all correct actions.
+             */
             actions: string[][];
         };
         /**
          * KnownAsk
-         * @description A query and what is right: for each label all that is, where several choices are as good.
+         * @description A query with its correct answers; a label can have several correct values.
          */
         KnownAsk: {
             /** Ask */
             ask: components["schemas"]["AskHierDemoInput"] | components["schemas"]["AskInspectFullInput"] | components["schemas"]["AskLabelHiInput"] | components["schemas"]["AskInspectLoInput"] | components["schemas"]["AskLabelLoInput"] | components["schemas"]["AskLabelFullInput"];
-            /** Known */
+            /**
+             * Known
+             * @description The correct answers.
+             */
             known: components["schemas"]["KnownVerdict"] | components["schemas"]["KnownSubgoals"] | components["schemas"]["KnownSegment"] | components["schemas"]["KnownActions"];
         };
         /**
          * KnownSegment
-         * @description The actions that are right, for each state before the segment should end.
+         * @description The correct actions and the correct end of a Label_LO.
          */
         KnownSegment: {
             /**
@@ -1953,17 +2122,20 @@ export interface components {
              * @enum {string}
              */
             kind: "label_lo";
-            /** Actions */
+            /**
+             * Actions
+             * @description For each state before the segment should end, all correct actions.
+             */
             actions: string[][];
             /**
              * End
-             * @description The state it should end in, from 0; null if in none of them.
+             * @description The number of the state where the segment should end, from 0; null if in none.
              */
             end: number | null;
         };
         /**
          * KnownSubgoals
-         * @description The subgoals that are right, for each segment.
+         * @description The correct subgoals of a Label_HI.
          */
         KnownSubgoals: {
             /**
@@ -1971,12 +2143,15 @@ export interface components {
              * @enum {string}
              */
             kind: "label_hi";
-            /** Subgoals */
+            /**
+             * Subgoals
+             * @description For each segment, all correct subgoals.
+             */
             subgoals: string[][];
         };
         /**
          * KnownVerdict
-         * @description What an inspection should say.
+         * @description The correct verdict of an inspection.
          */
         KnownVerdict: {
             /**
@@ -1992,7 +2167,7 @@ export interface components {
         };
         /**
          * LabelFullAnswer
-         * @description a*_1 .. a*_H over the joined segments.
+         * @description a*_1 .. a*_H: a good action for each state of the full trajectory.
          */
         LabelFullAnswer: {
             /**
@@ -2000,7 +2175,10 @@ export interface components {
              * @enum {string}
              */
             kind: "label_full";
-            /** Actions */
+            /**
+             * Actions
+             * @description The actions of all segments, joined.
+             */
             actions: string[];
         };
         /**
@@ -2013,15 +2191,18 @@ export interface components {
              * @enum {string}
              */
             kind: "label_hi";
-            /** Subgoals */
+            /**
+             * Subgoals
+             * @description One good subgoal per segment.
+             */
             subgoals: string[];
         };
         /**
          * LabelLoAnswer
          * @description a*_1 .. a*_H and omega*_1 .. omega*_{H+1} of one segment with H actions.
          *
-         *     Labels count up to the first true termination. An action may be null only there and after it: the segment should
-         *     have ended, so no action toward the subgoal is good.
+         *     The learner uses the labels up to the first true termination. From this state on, an action may be null, because no
+         *     action toward the subgoal is good after the subgoal is reached.
          */
         LabelLoAnswer: {
             /**
@@ -2029,74 +2210,83 @@ export interface components {
              * @enum {string}
              */
             kind: "label_lo";
-            /** Actions */
+            /**
+             * Actions
+             * @description A good action for each state but the last.
+             */
             actions: (string | null)[];
-            /** Terminations */
+            /**
+             * Terminations
+             * @description For each state, whether the segment should end.
+             */
             terminations: boolean[];
         };
         /**
          * Lease
-         * @description What an annotator is willing to take.
+         * @description A request for the next query, sent by an annotator.
          */
         Lease: {
             /**
              * Wait
-             * @description Wait so long for a query, seconds.
+             * @description The longest time to wait for a query, in seconds.
              * @default 0
              */
             wait: number;
             /**
              * Kinds
-             * @description Only these kinds; null for all.
+             * @description Only queries of these kinds; null for all kinds.
              */
             kinds?: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full")[] | null;
             /**
              * Run
-             * @description Only this run; null for all.
+             * @description Only queries of the run with this id; null for all runs.
              */
             run?: string | null;
             /**
              * Defer
-             * @description Leave a query this many seconds to other annotators who are at work and take its kind. A bot that helps people sets it; nobody else need.
+             * @description Skip a query in its first seconds (this many) if another working annotator takes its kind. Only bots that help people need this.
              * @default 0
              */
             defer: number;
             /**
              * Ahead
-             * @description To be answered after what the annotator holds already: only while enough queries are left for everybody else at work.
+             * @description Whether the query is for later, because the annotator holds another one. It is leased only if enough queries remain for all other working annotators.
              * @default false
              */
             ahead: boolean;
             /**
              * Tab
-             * @description The page that asks, so that it can give back all it holds.
+             * @description The browser tab that asks; when it closes, `leave` releases its assignments.
              */
             tab?: string | null;
         };
         /**
          * Leave
-         * @description A page is going: give back all it holds, and lease nothing more to it.
+         * @description Sent by a browser tab when it closes: its assignments are released, and it gets no new leases.
          */
         Leave: {
             /**
              * Tab
-             * @description A page's own name for itself, of its making.
+             * @description The name of a browser tab, chosen by the tab.
              */
             tab: string;
             /**
              * Keep
-             * @description Assignments whose answers are still being sent.
+             * @description The ids of assignments to keep, because their answers are still being sent.
              */
             keep: number[];
         };
         /**
          * LedgerEntry
-         * @description One line of the ledger: a charge, or a refund with its amounts below zero.
+         * @description One entry of the ledger, sent by the server: a charge, or a refund with negative amounts.
          */
         LedgerEntry: {
             /** Id */
             id: number;
-            /** At */
+            /**
+             * At
+             * @description When it was booked, in seconds since the epoch.
+             */
             at: number;
             /**
              * Entry
@@ -2105,66 +2295,97 @@ export interface components {
             entry: "charge" | "refund";
             /**
              * Kind
+             * @description The kind of the query.
              * @enum {string}
              */
             kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
-            /** Query */
+            /**
+             * Query
+             * @description The id of the query.
+             */
             query: number;
-            /** Episode */
+            /**
+             * Episode
+             * @description The number of the episode in the run, from 0.
+             */
             episode: number;
-            /** Ordinal */
+            /**
+             * Ordinal
+             * @description The number of the query in the episode, from 0.
+             */
             ordinal: number;
-            /** Annotator */
+            /**
+             * Annotator
+             * @description The name of the user who answered.
+             */
             annotator: string;
-            /** Units */
+            /**
+             * Units
+             * @description The cost of the answer, in units.
+             */
             units: number;
-            /** Lo Units */
+            /**
+             * Lo Units
+             * @description The part of `units` for LO labels: actions and terminations.
+             */
             lo_units: number;
-            /** Seconds */
+            /**
+             * Seconds
+             * @description The time from lease to answer, in seconds.
+             */
             seconds: number;
             /**
              * Balance
-             * @description What the run had spent after this line.
+             * @description The units that the run had spent after this entry.
              */
             balance: number;
         };
         /**
          * LedgerPage
-         * @description A page of a run's ledger, newest first, and the sums of all its pages.
+         * @description One page of a run's ledger, newest first, with the sums over all pages; sent by the server.
          */
         LedgerPage: {
             /** Entries */
             entries: components["schemas"]["LedgerEntry"][];
             /**
              * Total
-             * @description How many lines there are on all pages.
+             * @description The number of entries on all pages.
              */
             total: number;
             /**
              * Newest
-             * @description The newest of them on any page.
+             * @description The id of the newest entry on all pages.
              */
             newest: number | null;
             /**
              * Oldest
-             * @description The oldest of them on any page.
+             * @description The id of the oldest entry on all pages.
              */
             oldest: number | null;
-            /** Units */
+            /**
+             * Units
+             * @description The sum of `units` on all pages.
+             */
             units: number;
-            /** Lo Units */
+            /**
+             * Lo Units
+             * @description The sum of `lo_units` on all pages.
+             */
             lo_units: number;
-            /** Seconds */
+            /**
+             * Seconds
+             * @description The sum of `seconds` on all pages.
+             */
             seconds: number;
             /**
              * Spent
-             * @description What the run's account says; without a filter, `units` is the same.
+             * @description The units that the run has spent; equal to `units` if there is no filter.
              */
             spent: number;
         };
         /**
          * Login
-         * @description A one-time code out of a login link.
+         * @description The one-time code of a login link, sent by a browser.
          */
         Login: {
             /** Code */
@@ -2172,51 +2393,57 @@ export interface components {
         };
         /**
          * LoginLink
-         * @description A one-time login link's code, shown once.
+         * @description The code of a new one-time login link, sent by the server only once.
          */
         LoginLink: {
             /** Code */
             code: string;
-            /** Expires At */
+            /**
+             * Expires At
+             * @description When the link expires, in seconds since the epoch.
+             */
             expires_at: number;
         };
         /**
          * LoginLinkCreate
-         * @description How long a new login link is to be good.
+         * @description A request for a login link, sent by an administrator.
          */
         LoginLinkCreate: {
             /**
              * Seconds
-             * @description Null for the server's usual time.
+             * @description How long the link is valid, in seconds; null for the server's default.
              */
             seconds?: number | null;
         };
         /**
          * Mark
-         * @description One label of an answer, beside what is right there.
+         * @description One label of an answer, compared with the correct labels; sent by the server.
          */
         Mark: {
             /**
              * Place
-             * @description Which label, from 0; of a segment's actions and its end, which state.
+             * @description The number of the label, from 0; for a Label_LO, the number of the state.
              */
             place: number;
             /**
              * Given
-             * @description "(done)" and "(not done)" are the two labels of a segment's end.
+             * @description The label in the answer. "(done)" and "(not done)" are the two labels of a segment's end.
              */
             given: string | null;
             /**
              * Right
-             * @description All that is right there.
+             * @description All correct labels in this place.
              */
             right: string[];
-            /** Is Right */
+            /**
+             * Is Right
+             * @description Whether the given label is correct.
+             */
             is_right: boolean;
         };
         /**
          * Me
-         * @description Who is calling.
+         * @description The calling user, sent by the server.
          */
         Me: {
             /** Id */
@@ -2230,32 +2457,44 @@ export interface components {
             role: "admin" | "learner" | "annotator" | "viewer";
             /**
              * Answers
-             * @description Answers that counted.
+             * @description The number of the user's answers that count.
              */
             answers: number;
-            /** Answers Today */
+            /**
+             * Answers Today
+             * @description The number of these answers since midnight UTC.
+             */
             answers_today: number;
-            /** Median Seconds */
+            /**
+             * Median Seconds
+             * @description The median working time of the last 1,000 of these answers, without idle time, in seconds.
+             */
             median_seconds: number | null;
             /**
              * Units
-             * @description What these answers cost, in all runs.
+             * @description The cost of these answers in all runs, in units.
              */
             units: number;
         };
         /**
          * Milestone
-         * @description When the success rate over 100 test episodes first reached a level.
+         * @description The first time that the success rate over 100 test episodes reached a level.
          */
         Milestone: {
-            /** Episode */
+            /**
+             * Episode
+             * @description The number of the episode, from 0.
+             */
             episode: number;
-            /** Cost */
+            /**
+             * Cost
+             * @description The total cost up to and including this episode, in units.
+             */
             cost: number;
         };
         /**
          * NewToken
-         * @description A token, shown once; the server keeps only its hash.
+         * @description A new API token, sent by the server only once. The server stores only its hash.
          */
         NewToken: {
             /** Id */
@@ -2265,30 +2504,42 @@ export interface components {
         };
         /**
          * Numbers
-         * @description An annotator's own numbers, over all runs. Days are those of UTC.
+         * @description Statistics of an annotator over all runs, sent by the server. Days are UTC days.
          */
         Numbers: {
-            /** User */
+            /**
+             * User
+             * @description The id of the user.
+             */
             user: number;
-            /** Name */
+            /**
+             * Name
+             * @description The name of the user.
+             */
             name: string;
             total: components["schemas"]["Tally"];
             today: components["schemas"]["Tally"];
             /** @description Today and the six days before. */
             week: components["schemas"]["Tally"];
-            /** Gold */
+            /**
+             * Gold
+             * @description The number of answers to gold queries.
+             */
             gold: number;
-            /** Agreement */
+            /**
+             * Agreement
+             * @description The share of correct labels in answers to gold queries, 0 to 1; null if there are none.
+             */
             agreement: number | null;
             /**
              * By Kind
-             * @description The kinds they have answered.
+             * @description The statistics for each kind of query that they answered.
              */
             by_kind: components["schemas"]["NumbersOfKind"][];
         };
         /**
          * NumbersList
-         * @description Everybody's numbers who ever answered, by name.
+         * @description The statistics of all annotators who ever answered, by name, sent by the server.
          */
         NumbersList: {
             /** Annotators */
@@ -2296,7 +2547,7 @@ export interface components {
         };
         /**
          * NumbersOfKind
-         * @description An annotator's answers to one kind of query.
+         * @description Statistics of an annotator's answers to one kind of query.
          */
         NumbersOfKind: {
             /**
@@ -2305,56 +2556,69 @@ export interface components {
              */
             kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
             total: components["schemas"]["Tally"];
-            /** Median Seconds */
+            /**
+             * Median Seconds
+             * @description The median time from lease to answer, in seconds.
+             */
             median_seconds: number;
             /**
              * Gold
-             * @description How many of them were to gold queries.
+             * @description The number of answers to gold queries.
              */
             gold: number;
             /**
              * Gold Right
-             * @description How many of those were right in every label.
+             * @description The number of answers to gold queries with only correct labels.
              */
             gold_right: number;
             /**
              * Agreement
-             * @description The share of right labels among those of gold queries.
+             * @description The share of correct labels in answers to gold queries, 0 to 1; null if there are none.
              */
             agreement: number | null;
         };
         /**
          * PastAnswer
-         * @description An answer as it was given; never changed.
+         * @description An answer that was given at some time, sent by the server. Answers never change.
          */
         PastAnswer: {
             /** Id */
             id: number;
             /** Content */
             content: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
-            /** At */
+            /**
+             * At
+             * @description When it was given, in seconds since the epoch.
+             */
             at: number;
             /**
              * Units
-             * @description What it was charged; 0 if it came too late.
+             * @description The charged units; 0 if the answer was late.
              */
             units: number;
-            /** Seconds */
+            /**
+             * Seconds
+             * @description The time from lease to answer, in seconds.
+             */
             seconds: number;
             /**
              * Fate
+             * @description Whether the answer counts, was retracted, or came after the end of the lease.
              * @enum {string}
              */
             fate: "counts" | "retracted" | "late";
         };
         /**
          * PastAssignment
-         * @description One time a query was handed out, and how that ended.
+         * @description One assignment of a query and its end, sent by the server.
          */
         PastAssignment: {
             /** Id */
             id: number;
-            /** Annotator */
+            /**
+             * Annotator
+             * @description The name of the user.
+             */
             annotator: string;
             /**
              * State
@@ -2363,20 +2627,29 @@ export interface components {
             state: "live" | "answered" | "skipped" | "released" | "expired" | "cancelled";
             /**
              * Reason
-             * @description What was said when it was skipped or given back.
+             * @description The annotator's reason for skipping or releasing it.
              */
             reason: string | null;
-            /** Leased At */
+            /**
+             * Leased At
+             * @description When the lease began, in seconds since the epoch.
+             */
             leased_at: number;
-            /** Expires At */
+            /**
+             * Expires At
+             * @description When the lease expires or expired, in seconds since the epoch.
+             */
             expires_at: number;
-            /** Ended At */
+            /**
+             * Ended At
+             * @description When the assignment ended, in seconds since the epoch; null if live.
+             */
             ended_at: number | null;
             answer: components["schemas"]["PastAnswer"] | null;
         };
         /**
          * Practice
-         * @description Queries whose answers are known, in the order to meet them. Practicing stores nothing and costs nothing.
+         * @description The practice queries in their order, sent by the server. Practice stores nothing and costs nothing.
          */
         Practice: {
             vocabulary: components["schemas"]["Vocabulary"];
@@ -2385,7 +2658,7 @@ export interface components {
         };
         /**
          * PracticeAnswer
-         * @description An answer given for practice.
+         * @description An answer to a practice query, sent by an annotator.
          */
         PracticeAnswer: {
             /** Answer */
@@ -2393,7 +2666,7 @@ export interface components {
         };
         /**
          * PracticeQuery
-         * @description A query to practice on.
+         * @description A practice query, sent by the server.
          */
         PracticeQuery: {
             /** Id */
@@ -2403,107 +2676,136 @@ export interface components {
         };
         /**
          * Price
-         * @description The price of an answer: `fixed` + `per_action` x its actions + `per_segment` x its segments, in units.
+         * @description The price of an answer, sent by the server: `fixed` + `per_action` x actions + `per_segment` x segments.
          *
-         *     Only the price of a demonstration depends on the answer; every other kind has a `fixed` price.
+         *     Only the price of a demonstration depends on the answer. All other kinds have a fixed price.
          */
         Price: {
-            /** Fixed */
+            /**
+             * Fixed
+             * @description The fixed part, in units.
+             */
             fixed: number;
-            /** Per Action */
+            /**
+             * Per Action
+             * @description The price of each action of a demonstration, in units.
+             */
             per_action: number;
-            /** Per Segment */
+            /**
+             * Per Segment
+             * @description The price of each segment of a demonstration, in units.
+             */
             per_segment: number;
         };
         /**
          * Prices
-         * @description What one label costs, in units, to six decimals. The paper: Label = length of what is labeled, Inspect = 1.
+         * @description The prices of a run, in units with up to six decimals.
+         *
+         *     The defaults are the paper's: a Label costs the length of what it labels, an Inspect costs 1.
          */
         PricesInput: {
             /**
              * Subgoal
-             * @description One HI label: a subgoal at a state.
+             * @description The price of one HI label (a subgoal at a state), in units.
              * @default 1
              */
             subgoal: number;
             /**
              * Action
-             * @description One LO label: an action at a state.
+             * @description The price of one LO label (an action at a state), in units.
              * @default 1
              */
             action: number;
             /**
              * Termination
-             * @description The termination label of a segment's last state.
+             * @description The price of the termination labels of one segment, in units.
              * @default 1
              */
             termination: number;
             /**
              * Inspect Full
+             * @description The price of one Inspect_FULL, in units.
              * @default 1
              */
             inspect_full: number;
             /**
              * Inspect Lo
+             * @description The price of one Inspect_LO, in units.
              * @default 1
              */
             inspect_lo: number;
         };
         /**
          * Prices
-         * @description What one label costs, in units, to six decimals. The paper: Label = length of what is labeled, Inspect = 1.
+         * @description The prices of a run, in units with up to six decimals.
+         *
+         *     The defaults are the paper's: a Label costs the length of what it labels, an Inspect costs 1.
          */
         Prices: {
             /**
              * Subgoal
-             * @description One HI label: a subgoal at a state.
+             * @description The price of one HI label (a subgoal at a state), in units.
              * @default 1
              */
             subgoal: number;
             /**
              * Action
-             * @description One LO label: an action at a state.
+             * @description The price of one LO label (an action at a state), in units.
              * @default 1
              */
             action: number;
             /**
              * Termination
-             * @description The termination label of a segment's last state.
+             * @description The price of the termination labels of one segment, in units.
              * @default 1
              */
             termination: number;
             /**
              * Inspect Full
+             * @description The price of one Inspect_FULL, in units.
              * @default 1
              */
             inspect_full: number;
             /**
              * Inspect Lo
+             * @description The price of one Inspect_LO, in units.
              * @default 1
              */
             inspect_lo: number;
         };
         /**
          * Problem
-         * @description RFC 9457: what was wrong and what to do about it.
+         * @description The server's reply to every request that it refuses, in the format of RFC 9457.
          */
         Problem: {
             /**
              * Type
-             * @description A stable name of the problem: `/problems/<name>`.
+             * @description The stable name of the problem: `/problems/<name>`.
              */
             type: string;
-            /** Title */
+            /**
+             * Title
+             * @description The problem in a few words, the same for every occurrence.
+             */
             title: string;
-            /** Status */
+            /**
+             * Status
+             * @description The HTTP status code.
+             */
             status: number;
-            /** Detail */
+            /**
+             * Detail
+             * @description What was wrong with this request, and what to do.
+             */
             detail: string;
-            /** Instance */
+            /**
+             * Instance
+             * @description The path of the request.
+             */
             instance?: string | null;
             /**
              * Errors
-             * @description For 422: each field at fault.
+             * @description For status 422: each invalid field.
              */
             errors?: {
                 [key: string]: components["schemas"]["JsonValue"];
@@ -2511,57 +2813,72 @@ export interface components {
         };
         /**
          * Query
-         * @description A query as everybody sees it: what was asked, where it stands, and its answer once it has one.
+         * @description A query with its state and its answer, sent by the server.
          */
         Query: {
             /** Id */
             id: number;
-            /** Run */
+            /**
+             * Run
+             * @description The id of the run.
+             */
             run: string;
             /**
              * State
              * @enum {string}
              */
             state: "open" | "leased" | "answered" | "cancelled";
-            /** Priority */
+            /**
+             * Priority
+             * @description Queries with a higher priority are handed out first.
+             */
             priority: number;
-            /** Created At */
+            /**
+             * Created At
+             * @description When the learner asked, in seconds since the epoch.
+             */
             created_at: number;
-            /** Ask */
+            /**
+             * Ask
+             * @description The query as the learner asked it.
+             */
             ask: components["schemas"]["AskHierDemo"] | components["schemas"]["AskInspectFull"] | components["schemas"]["AskLabelHi"] | components["schemas"]["AskInspectLo"] | components["schemas"]["AskLabelLo"] | components["schemas"]["AskLabelFull"];
-            /** Answer */
+            /**
+             * Answer
+             * @description The answer that counts; null if there is none.
+             */
             answer: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /** Answer Id */
             answer_id: number | null;
             /**
              * Used
-             * @description Whether the learner has used the answer; then it can be retracted no more.
+             * @description Whether the learner has used the answer; a used answer can no longer be retracted.
              */
             used: boolean;
             /**
              * Annotator
-             * @description Who answered, or who holds it now.
+             * @description The name of the user who answered, or who holds the query now.
              */
             annotator: string | null;
             /**
              * Units
-             * @description What the answer cost.
+             * @description The cost of the answer, in units.
              */
             units: number | null;
             /**
              * Seconds
-             * @description From lease to answer, by the server's clock.
+             * @description The time from lease to answer, in seconds, by the server's clock.
              */
             seconds: number | null;
             /**
              * Active Seconds
-             * @description The annotator's own time for it, without idle time.
+             * @description The annotator's working time without idle time, in seconds.
              */
             active_seconds: number | null;
         };
         /**
          * QueryHistory
-         * @description Everything that became of a query, oldest first, and its neighbors in its run.
+         * @description All assignments and ledger entries of a query, oldest first, and its neighbors; sent by the server.
          */
         QueryHistory: {
             /** Assignments */
@@ -2570,15 +2887,18 @@ export interface components {
             ledger: components["schemas"]["LedgerEntry"][];
             /**
              * Previous
-             * @description The query asked before it in the run, by episode and ordinal.
+             * @description The id of the previous query in the run, by episode and ordinal.
              */
             previous: number | null;
-            /** Next */
+            /**
+             * Next
+             * @description The id of the next query in the run, by episode and ordinal.
+             */
             next: number | null;
         };
         /**
          * QueryList
-         * @description Queries of a run, newest first; `before` the last one's id goes on.
+         * @description Queries of a run, newest first, sent by the server. For the next page, set `before` to the last query's id.
          */
         QueryList: {
             /** Queries */
@@ -2586,37 +2906,43 @@ export interface components {
         };
         /**
          * QueryPage
-         * @description A page of a run's queries, newest first.
+         * @description One page of a run's queries, newest first, sent by the server.
          */
         QueryPage: {
             /** Rows */
             rows: components["schemas"]["QueryRow"][];
             /**
              * Total
-             * @description How many there are on all pages.
+             * @description The number of queries on all pages.
              */
             total: number;
             /**
              * Newest
-             * @description The newest of them on any page.
+             * @description The id of the newest query on all pages.
              */
             newest: number | null;
             /**
              * Oldest
-             * @description The oldest of them on any page.
+             * @description The id of the oldest query on all pages.
              */
             oldest: number | null;
         };
         /**
          * QueryRow
-         * @description A query in a table: what was asked and what came of it, without the trajectory.
+         * @description A query and its answer without the trajectory, as a row of a table; sent by the server.
          */
         QueryRow: {
             /** Id */
             id: number;
-            /** Episode */
+            /**
+             * Episode
+             * @description The number of the episode in the run, from 0.
+             */
             episode: number;
-            /** Ordinal */
+            /**
+             * Ordinal
+             * @description The number of the query in the episode, from 0.
+             */
             ordinal: number;
             /**
              * Kind
@@ -2628,113 +2954,165 @@ export interface components {
              * @enum {string}
              */
             state: "open" | "leased" | "answered" | "cancelled";
-            /** Priority */
+            /**
+             * Priority
+             * @description Queries with a higher priority are handed out first.
+             */
             priority: number;
-            /** Question */
+            /**
+             * Question
+             * @description The query in words.
+             */
             question: string;
-            /** Created At */
+            /**
+             * Created At
+             * @description When the learner asked, in seconds since the epoch.
+             */
             created_at: number;
-            /** Answered At */
+            /**
+             * Answered At
+             * @description When the answer was given, in seconds since the epoch.
+             */
             answered_at: number | null;
-            /** Answer */
+            /**
+             * Answer
+             * @description The answer that counts; null if there is none.
+             */
             answer: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
-            /** Used */
+            /**
+             * Used
+             * @description Whether the learner has used the answer.
+             */
             used: boolean;
             /**
              * Annotator
-             * @description Who answered, or who holds it now.
+             * @description The name of the user who answered, or who holds the query now.
              */
             annotator: string | null;
-            /** Units */
+            /**
+             * Units
+             * @description The cost of the answer, in units.
+             */
             units: number | null;
-            /** Seconds */
+            /**
+             * Seconds
+             * @description The time from lease to answer, in seconds.
+             */
             seconds: number | null;
             /**
              * Skips
-             * @description How often it was skipped.
+             * @description How often annotators skipped the query.
              */
             skips: number;
             /**
              * Expiries
-             * @description How many of its leases ran out.
+             * @description How many leases of the query expired.
              */
             expiries: number;
         };
         /**
          * Receipt
-         * @description The answer is on disk and charged.
+         * @description The server's reply to an answer: it is stored on disk and charged.
          */
         Receipt: {
-            /** Query */
+            /**
+             * Query
+             * @description The id of the query.
+             */
             query: number;
-            /** Answer */
+            /**
+             * Answer
+             * @description The id of the answer.
+             */
             answer: number;
-            /** Units */
+            /**
+             * Units
+             * @description The cost of the answer, in units.
+             */
             units: number;
-            /** Seconds */
+            /**
+             * Seconds
+             * @description The time from lease to answer, in seconds.
+             */
             seconds: number;
-            /** Active Seconds */
+            /**
+             * Active Seconds
+             * @description The annotator's working time without idle time, in seconds.
+             */
             active_seconds: number;
+            /** @description The next assignment, if one was requested and is available. */
             next: components["schemas"]["Assignment"] | null;
         };
         /**
          * Release
-         * @description Give a query back, unanswered.
+         * @description A request to release an unanswered query, sent by its annotator.
          */
         Release: {
-            /** Token */
+            /**
+             * Token
+             * @description The token of the assignment.
+             */
             token: string;
             /**
              * Reason
-             * @description Why; "" when only making room for others.
+             * @description The reason, shown in the history of the query; may be empty.
              * @default
              */
             reason: string;
             /**
              * Skip
-             * @description True: do not offer it to this annotator again.
+             * @description Whether the query must not be leased to this annotator again.
              * @default false
              */
             skip: boolean;
         };
         /**
          * Renew
-         * @description A heartbeat.
+         * @description A request to renew a lease, sent regularly by an annotator.
          */
         Renew: {
-            /** Token */
+            /**
+             * Token
+             * @description The token of the assignment.
+             */
             token: string;
             /**
              * Active
-             * @description The annotator did something since the last one: pressed, pointed, scrolled.
+             * @description Whether the annotator pressed a key, moved the pointer or scrolled since the last renewal.
              * @default false
              */
             active: boolean;
         };
         /**
          * Renewal
-         * @description The lease after a heartbeat.
+         * @description The server's reply to a renewal.
          */
         Renewal: {
-            /** Expires At */
+            /**
+             * Expires At
+             * @description When the lease now expires, in seconds since the epoch.
+             */
             expires_at: number;
         };
         /**
          * Retract
-         * @description Take an answer back.
+         * @description A request to retract an answer, sent by its annotator.
          */
         Retract: {
-            /** Token */
+            /**
+             * Token
+             * @description The token of the assignment.
+             */
             token: string;
             /**
              * Tab
-             * @description The page that will hold its query again.
+             * @description The browser tab that will hold the query again.
              */
             tab?: string | null;
         };
         /**
          * Run
-         * @description A run and where its money is: `spent + reserved <= budget`, always.
+         * @description A run and its account, sent by the server. `spent + reserved <= budget` holds at all times.
          */
         Run: {
             /** Id */
@@ -2751,50 +3129,80 @@ export interface components {
              */
             state: "running" | "paused" | "finished";
             vocabulary: components["schemas"]["Vocabulary"];
-            /** Config */
+            /**
+             * Config
+             * @description All values that determine the run.
+             */
             config: {
                 [key: string]: components["schemas"]["JsonValue"];
             };
             prices: components["schemas"]["Prices"];
-            /** Budget */
+            /**
+             * Budget
+             * @description The highest total cost of the run, in units; null for no limit.
+             */
             budget: number | null;
             /**
              * Reserved
-             * @description Units held for queries asked and not yet answered.
+             * @description The units reserved for unanswered queries.
              */
             reserved: number;
-            /** Spent */
+            /**
+             * Spent
+             * @description The units spent on answered queries.
+             */
             spent: number;
             /**
              * Priority
-             * @description Queries of a run with a higher one are handed out first.
+             * @description Queries of a run with a higher priority are handed out first.
              */
             priority: number;
-            /** Episodes */
+            /**
+             * Episodes
+             * @description The planned number of episodes; null if unknown.
+             */
             episodes: number | null;
-            /** Episodes Done */
+            /**
+             * Episodes Done
+             * @description The number of reported episodes.
+             */
             episodes_done: number;
             /**
              * Success Rate
-             * @description Over the trailing 100 test episodes; null before the first.
+             * @description The success rate over the trailing 100 test episodes, 0 to 1; null before the first.
              */
             success_rate: number | null;
-            /** Open Queries */
+            /**
+             * Open Queries
+             * @description The number of unanswered queries.
+             */
             open_queries: number;
-            /** Gold Rate */
+            /**
+             * Gold Rate
+             * @description The share of gold queries among an annotator's queries, 0 to 0.5.
+             */
             gold_rate: number;
-            /** Result */
+            /**
+             * Result
+             * @description The learner's report at the end of the run.
+             */
             result: {
                 [key: string]: components["schemas"]["JsonValue"];
             } | null;
-            /** Created At */
+            /**
+             * Created At
+             * @description When the run was created, in seconds since the epoch.
+             */
             created_at: number;
-            /** Finished At */
+            /**
+             * Finished At
+             * @description When the run finished, in seconds since the epoch.
+             */
             finished_at: number | null;
         };
         /**
          * RunCreate
-         * @description What a learner says of itself before it asks.
+         * @description The description of a new run, sent by the learner.
          */
         RunCreate: {
             /** Name */
@@ -2806,7 +3214,7 @@ export interface components {
             vocabulary: components["schemas"]["Vocabulary"];
             /**
              * Config
-             * @description Every value that fixes the run.
+             * @description All values that determine the run.
              */
             config?: {
                 [key: string]: components["schemas"]["JsonValue"];
@@ -2814,47 +3222,50 @@ export interface components {
             prices?: components["schemas"]["PricesInput"];
             /**
              * Budget
-             * @description Most units the run may ever cost; null for no limit.
+             * @description The highest total cost of the run, in units; null for no limit.
              */
             budget?: number | null;
             /**
              * Episodes
-             * @description How many episodes are planned.
+             * @description The planned number of episodes.
              */
             episodes?: number | null;
         };
         /**
          * RunList
-         * @description A page of runs.
+         * @description One page of runs, sent by the server.
          */
         RunList: {
             /** Runs */
             runs: components["schemas"]["Run"][];
             /**
              * Total
-             * @description How many there are on all pages.
+             * @description The number of runs on all pages.
              */
             total: number;
         };
         /**
          * RunPatch
-         * @description What may change in a run; absent fields stay as they are, and a null budget lifts it.
+         * @description Changes of a run. Absent fields do not change; a null budget removes the limit.
          */
         RunPatch: {
             /** Name */
             name?: string | null;
             /** State */
             state?: ("running" | "paused" | "finished") | null;
-            /** Budget */
+            /**
+             * Budget
+             * @description The highest total cost of the run, in units.
+             */
             budget?: number | null;
             /**
              * Priority
-             * @description Queries of a run with a higher one are handed out first.
+             * @description Queries of a run with a higher priority are handed out first.
              */
             priority?: number | null;
             /**
              * Result
-             * @description What the learner reports at its end.
+             * @description The learner's report at the end of the run.
              */
             result?: {
                 [key: string]: components["schemas"]["JsonValue"];
@@ -2864,78 +3275,87 @@ export interface components {
         };
         /**
          * Segment
-         * @description One (s_h, g_h, tau_h) of the learner's hierarchical trajectory.
+         * @description One segment (s_h, g_h, tau_h) of the learner's trajectory.
          */
         SegmentInput: {
             /**
              * Subgoal
-             * @description The subgoal the learner pursued; null for a flat policy.
+             * @description The learner's subgoal; null for a flat policy.
              */
             subgoal: string | null;
             /**
              * States
-             * @description s_1 .. s_{H+1}, in the domain's JSON view.
+             * @description s_1 .. s_{H+1}, as JSON views of the domain.
              */
             states: components["schemas"]["JsonValue"][];
             /**
              * Actions
-             * @description a_1 .. a_H, one fewer than the states.
+             * @description a_1 .. a_H, one less than the states.
              */
             actions: string[];
             /**
              * Frames
-             * @description A picture of each state, uploaded before; none where the page draws the states itself. Pictures are not part of what is asked: asking again with others changes nothing.
+             * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
             frames?: string[];
         };
         /**
          * Segment
-         * @description One (s_h, g_h, tau_h) of the learner's hierarchical trajectory.
+         * @description One segment (s_h, g_h, tau_h) of the learner's trajectory.
          */
         Segment: {
             /**
              * Subgoal
-             * @description The subgoal the learner pursued; null for a flat policy.
+             * @description The learner's subgoal; null for a flat policy.
              */
             subgoal: string | null;
             /**
              * States
-             * @description s_1 .. s_{H+1}, in the domain's JSON view.
+             * @description s_1 .. s_{H+1}, as JSON views of the domain.
              */
             states: components["schemas"]["JsonValue"][];
             /**
              * Actions
-             * @description a_1 .. a_H, one fewer than the states.
+             * @description a_1 .. a_H, one less than the states.
              */
             actions: string[];
             /**
              * Frames
-             * @description A picture of each state, uploaded before; none where the page draws the states itself. Pictures are not part of what is asked: asking again with others changes nothing.
+             * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
             frames: string[];
         };
         /**
          * Session
-         * @description A browser that is signed in.
+         * @description A browser that is signed in, sent by the server.
          */
         Session: {
             /** Id */
             id: number;
-            /** Created At */
+            /**
+             * Created At
+             * @description When the user signed in, in seconds since the epoch.
+             */
             created_at: number;
-            /** Last Used At */
+            /**
+             * Last Used At
+             * @description When the session was last used, in seconds since the epoch, to the minute.
+             */
             last_used_at: number | null;
-            /** Expires At */
+            /**
+             * Expires At
+             * @description When the session expires, in seconds since the epoch.
+             */
             expires_at: number;
             /**
              * Current
-             * @description Whether this is the session that asks.
+             * @description Whether this is the session of the calling browser.
              */
             current: boolean;
         };
         /**
          * SessionList
-         * @description The caller's sessions, oldest first.
+         * @description The caller's sessions, oldest first, sent by the server.
          */
         SessionList: {
             /** Sessions */
@@ -2943,39 +3363,48 @@ export interface components {
         };
         /**
          * Tally
-         * @description What answers come to. Gold queries are among them: they are work too, though no run pays for them.
+         * @description The number and the cost of an annotator's answers, including gold queries, which no run pays for.
          */
         Tally: {
-            /** Answers */
+            /**
+             * Answers
+             * @description The number of answers.
+             */
             answers: number;
-            /** Units */
+            /**
+             * Units
+             * @description The cost of the answers, in units.
+             */
             units: number;
         };
         /**
          * Token
-         * @description A token that is good, without its secret.
+         * @description A valid API token without its secret, sent by the server.
          */
         Token: {
             /** Id */
             id: number;
             /** Label */
             label: string;
-            /** Created At */
+            /**
+             * Created At
+             * @description When the token was created, in seconds since the epoch.
+             */
             created_at: number;
             /**
              * Last Used At
-             * @description To the minute; null if never.
+             * @description When the token was last used, in seconds since the epoch, to the minute; null if never.
              */
             last_used_at: number | null;
         };
         /**
          * TokenCreate
-         * @description An API token for the caller, or, made by an administrator, for any user.
+         * @description A request for an API token. Only administrators may request tokens of other users.
          */
         TokenCreate: {
             /**
              * User
-             * @description Whose; null for the caller's own.
+             * @description The id of the token's user; null for the caller.
              */
             user?: number | null;
             /**
@@ -2986,7 +3415,7 @@ export interface components {
         };
         /**
          * TokenList
-         * @description A user's tokens that are good, oldest first.
+         * @description A user's valid tokens, oldest first, sent by the server.
          */
         TokenList: {
             /** Tokens */
@@ -2994,7 +3423,7 @@ export interface components {
         };
         /**
          * User
-         * @description A user, without secrets.
+         * @description A user without secrets, sent by the server.
          */
         User: {
             /** Id */
@@ -3006,22 +3435,25 @@ export interface components {
              * @enum {string}
              */
             role: "admin" | "learner" | "annotator" | "viewer";
-            /** Created At */
+            /**
+             * Created At
+             * @description When the user was created, in seconds since the epoch.
+             */
             created_at: number;
             /**
              * Deactivated At
-             * @description Since when they may not call; null while they may.
+             * @description When the user was deactivated, in seconds since the epoch; null for an active user.
              */
             deactivated_at: number | null;
             /**
              * Last Used At
-             * @description When they last called, to the minute.
+             * @description When the user last called, in seconds since the epoch, to the minute; null if never.
              */
             last_used_at: number | null;
         };
         /**
          * UserCreate
-         * @description A person or a program that may call.
+         * @description A new user (a person or a program), sent by an administrator.
          */
         UserCreate: {
             /** Name */
@@ -3034,7 +3466,7 @@ export interface components {
         };
         /**
          * UserList
-         * @description All users.
+         * @description All users, sent by the server.
          */
         UserList: {
             /** Users */
@@ -3042,42 +3474,45 @@ export interface components {
         };
         /**
          * UserPatch
-         * @description What may change in a user; absent fields stay as they are.
+         * @description Changes of a user, sent by an administrator. Absent fields do not change.
          */
         UserPatch: {
             /** Role */
             role?: ("admin" | "learner" | "annotator" | "viewer") | null;
             /**
              * Active
-             * @description False ends their sessions, tokens, links and leases; their answers stay.
+             * @description False deactivates the user: sessions, tokens, login links and leases end; answers remain.
              */
             active?: boolean | null;
         };
         /**
          * Vocabulary
-         * @description A domain's names, in the order of its own numbering, and how the page draws it.
+         * @description The names of a domain, in the order of its numbers, and the renderer that draws it in the web app.
          */
         Vocabulary: {
             /** Domain */
             domain: string;
             /**
              * Subgoals
-             * @description Empty for a domain without subgoals.
+             * @description The subgoals; empty for a domain without subgoals.
              */
             subgoals: string[];
-            /** Actions */
+            /**
+             * Actions
+             * @description The actions.
+             */
             actions: string[];
             /**
              * Renderer
-             * @description Which of the page's renderers draws its instances and states.
+             * @description The renderer of the web app that draws its instances and states.
              */
             renderer: string;
         };
         /**
          * PlayMoves
-         * @description Annotator to learner: the whole demonstration as it stands, so that neither end must remember the other's past.
+         * @description The whole demonstration so far, sent by the annotator to the learner.
          *
-         *     What changed since the last message, and in which direction, is for the learner to see.
+         *     It is sent as a whole, so neither side has to remember earlier messages. The learner compares it with the last one.
          */
         PlayMoves: {
             /**
@@ -3087,23 +3522,23 @@ export interface components {
             type: "moves";
             /**
              * Number
-             * @description Counts these messages; the reply repeats it.
+             * @description The number of this message; the reply repeats it.
              */
             number: number;
             /**
              * Segments
-             * @description As in the answer; none before the first move.
+             * @description The segments as in the answer; empty before the first action.
              */
             segments: components["schemas"]["DemoSegment"][];
             /**
              * Known
-             * @description States s_1 .. s_known need not be sent, the annotator has them.
+             * @description The number of states that the annotator already has; the reply omits them.
              */
             known: number;
         };
         /**
          * PlayOffer
-         * @description A learner's first message: it offers the query's environment.
+         * @description The learner's first message. It offers the environment of the query.
          */
         PlayOffer: {
             /**
@@ -3114,7 +3549,7 @@ export interface components {
         };
         /**
          * PlayStage
-         * @description Server to annotator: whether a learner offers the environment just now.
+         * @description Sent by the server to the annotator: whether a learner offers the environment now.
          */
         PlayStage: {
             /**
@@ -3122,12 +3557,15 @@ export interface components {
              * @constant
              */
             type: "stage";
-            /** Present */
+            /**
+             * Present
+             * @description Whether a learner is connected.
+             */
             present: boolean;
         };
         /**
          * PlayStates
-         * @description Learner to annotator: what the environment made of the moves.
+         * @description The states after the annotator's actions, sent by the learner.
          */
         PlayStates: {
             /**
@@ -3135,26 +3573,29 @@ export interface components {
              * @constant
              */
             type: "states";
-            /** Number */
+            /**
+             * Number
+             * @description The number of the message that this one replies to.
+             */
             number: number;
             /**
              * Known
-             * @description How many states come before these.
+             * @description The number of states before `states`.
              */
             known: number;
             /**
              * States
-             * @description The states after those, in the domain's JSON view, up to the episode's end.
+             * @description The following states up to the end of the episode, as JSON views of the domain.
              */
             states: components["schemas"]["JsonValue"][];
             /**
              * Frames
-             * @description A picture of each of these, uploaded before; none where the page draws the states itself.
+             * @description One uploaded picture per state; empty if the web app draws the states itself.
              */
             frames: string[];
             /**
              * Ended
-             * @description Whether the episode ended in the last state; actions after it have no state.
+             * @description Whether the episode ended in the last state; later actions have no state.
              */
             ended: boolean;
             /**
@@ -3165,7 +3606,7 @@ export interface components {
         };
         /**
          * PlayTake
-         * @description An annotator's first message: shows that it holds the query's live assignment.
+         * @description The annotator's first message. It proves that the annotator holds the query's live assignment.
          */
         PlayTake: {
             /**
@@ -3173,9 +3614,15 @@ export interface components {
              * @constant
              */
             type: "take";
-            /** Assignment */
+            /**
+             * Assignment
+             * @description The id of the assignment.
+             */
             assignment: number;
-            /** Token */
+            /**
+             * Token
+             * @description The token of the assignment.
+             */
             token: string;
         };
     };
