@@ -1,4 +1,4 @@
-# Builds two images: `--target server` (the service and the web app) and `--target learner` (the same with PyTorch).
+# Builds two images: `--target server` (the server with the web app) and `--target learner` (the same with PyTorch).
 
 FROM node:22-slim AS page
 WORKDIR /src/web
@@ -16,7 +16,7 @@ COPY sdk/ sdk/
 COPY server/ server/
 COPY learner/ learner/
 COPY web/hatch_build.py web/
-# The build hook uses the built web app, so this stage needs no Node.
+# The build hook uses the web app that is already built, so this stage needs no Node.
 COPY --from=page /src/web/dist/ web/dist/
 RUN pip wheel --no-cache-dir --no-deps --wheel-dir /wheels .
 
@@ -26,7 +26,7 @@ RUN /opt/waypost/bin/pip install --no-cache-dir /wheels/*.whl
 
 
 FROM wheel AS learner-environment
-# Install PyTorch separately, so that it can come from another index. CPU-only builds save gigabytes (docs/operator.md).
+# Install PyTorch first and separately, from the given index: CPU-only builds save gigabytes (docs/operator.md).
 ARG TORCH_INDEX_URL=
 RUN /opt/waypost/bin/pip install --no-cache-dir ${TORCH_INDEX_URL:+--index-url "$TORCH_INDEX_URL"} 'torch>=2.6,<2.14'
 RUN /opt/waypost/bin/pip install --no-cache-dir "$(echo /wheels/*.whl)[learner]"

@@ -1,5 +1,5 @@
-# Every target installs what it needs, so no other command is necessary before it.
-# ARGS passes options to a command, for example: make demo ARGS="--port 8001"
+# Every target first installs what it needs, so no other command is necessary before it.
+# ARGS passes options to the command: make demo ARGS="--port 8001"
 
 VENV := .venv
 PEERS := $(VENV)/peers
@@ -14,13 +14,13 @@ PYTEST_ARGS ?=
 .DELETE_ON_ERROR:
 
 help:
-	@echo "make demo    start a server, a learner and a bot on this machine, and print one link to open"
-	@echo "make serve   start only the server"
-	@echo "make test    run all checks and all tests"
+	@echo "make demo    run a server, a learner and a bot on this machine; print a link to open"
+	@echo "make serve   run only the server"
+	@echo "make test    run every check and every test"
 	@echo "make lint    run only the checks: style, types, import contracts"
-	@echo "make bench   run the measurements, which print tables"
+	@echo "make bench   measure, and print tables"
 	@echo "make web     build the web app"
-	@echo "make clean   remove everything that make created; stores and checkpoints remain"
+	@echo "make clean   remove everything that the other targets made, except stores and checkpoints"
 
 # --- targets for users
 
@@ -32,8 +32,8 @@ serve: $(VENV)/.base $(if $(filter yes,$(shell scripts/page-is-current)),,web/di
 
 web: web/dist/index.html
 
-# pytest runs last, so that its summary is the last output. Do not use --dist loadscope: the tests that are generated from
-# the API's description share one name, and loadscope would run only one of them.
+# pytest runs last, so that its summary is the end of the output. It runs without --dist loadscope, which would run only
+# one of several tests with the same name; the tests that are generated from the API's description have the same name.
 test: lint test-web $(VENV)/.dev web/dist/index.html
 	@SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/postgresql
 	@chromium="$$(SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/chromium)" && \
@@ -65,9 +65,9 @@ clean:
 	  .hypothesis build dist
 	find sdk server learner tests bench -name __pycache__ -type d -prune -exec rm -rf {} +
 
-# --- setup. A stamp file means that a step is done for the current pyproject.toml or package-lock.json.
+# --- installation; a stamp file says that a step is done for the current pyproject.toml or package-lock.json
 
-# A virtual environment is unusable if it was made for another folder or if its Python is missing: remove its stamps.
+# A virtual environment that was made for another folder, or whose Python is missing, does not work: remove its stamps.
 ifneq ($(shell scripts/venv-works $(VENV)),yes)
 $(shell rm -f $(VENV)/.made $(VENV)/.base $(VENV)/.learner $(VENV)/.dev)
 endif
@@ -90,19 +90,19 @@ $(VENV)/.learner: pyproject.toml $(VENV)/.made
 	@touch $(VENV)/.base $@
 
 $(VENV)/.dev: pyproject.toml $(VENV)/.made
-	@echo "Installing the Python packages, including those of the tests. PyTorch is large, so the first time takes a minute or more."
+	@echo "Installing the Python packages, including those of the tests; PyTorch is large, so the first time takes a minute or more."
 	@$(PIP) install -e '.[learner,dev]'
 	@touch $(VENV)/.base $(VENV)/.learner $@
 
-# The libraries that bench/ compares with ours need conflicting packages, so they have their own virtual environment.
-# Without it, the tables say that they were not measured.
+# The libraries that bench/ compares with ours need packages that conflict with ours, so they have their own environment.
+# If they are missing, the tables say so.
 $(PEERS)/.installed: bench/peers/requirements.txt $(VENV)/.made
-	@echo "Installing the libraries for the measurements. They have their own PyTorch, so this takes some minutes."
+	@echo "Installing the libraries for the comparisons; they include another PyTorch, so this takes some minutes."
 	@if PYTHON_FOR_VENV=$(PYTHON) scripts/make-venv $(PEERS) && \
 	  $(PEERS)/bin/python -m pip --disable-pip-version-check -qq install -r $<; \
-	then touch $@; else echo "The installation failed; the measurements continue without these libraries."; fi
+	then touch $@; else echo "They could not be installed; the measurements continue without them."; fi
 
-# If there is no recent Node, scripts/with-node installs one into the virtual environment.
+# If there is no recent Node, scripts/with-node installs one in the virtual environment.
 web/node_modules/.stamp: web/package.json web/package-lock.json | $(VENV)/.made
 	@echo "Installing the npm packages of the web app."
 	@cd web && ../$(WITH_NODE) npm ci --no-audit --no-fund --loglevel=error

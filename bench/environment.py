@@ -174,7 +174,7 @@ def main() -> None:
         try:
             peer = stack.enter_context(Peer("four_rooms"))
             for form in FORMS:
-                peer.seconds(form=form, steps=1)  # if it fails, it fails here
+                peer.seconds(form=form, steps=1)  # raises `Missing` here if the form cannot run
             measured |= {form: minigrid(peer, form) for form in FORMS}
             said = f"{peer.versions}; {steps // FEWER} steps per round"
         except Missing as why:

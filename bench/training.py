@@ -143,7 +143,7 @@ def print_training(policy: Policy, data: Dataset) -> None:
     with ExitStack() as stack:
         try:
             peer = stack.enter_context(imitation(data, Path(stack.enter_context(tempfile.TemporaryDirectory()))))
-            peer.seconds(batches=1)  # if it fails, it fails here
+            peer.seconds(batches=1)  # raises `Missing` here if the library cannot run
             rounds[peer.versions] = lambda: peer.seconds(batches=math.ceil(rows / SPEC.batch))
         except Missing as why:
             absent = f"| imitation | not measured: {why} | |"

@@ -1,4 +1,4 @@
-"""Adds the built web app to the wheel as `waypost_server/static` (a Hatchling build hook)."""
+"""Adds the built web app to the wheel, as `waypost_server/static`. Hatchling calls this hook."""
 
 import shutil
 import subprocess
@@ -9,10 +9,10 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 
 class PageBuildHook(BuildHookInterface):
-    """Builds the web app if necessary. An editable install serves `web/dist` directly, so it needs no build."""
+    """Builds the web app if it is not built. An editable install needs no hook, because it serves `web/dist`."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build the web app and include it in the wheel."""
+        """Build the web app if needed, and add it to the wheel."""
         if version == "editable" or self.target_name != "wheel":
             return
         web = Path(self.root) / "web"
@@ -26,13 +26,13 @@ def build_page(web: Path) -> None:
     """Build the web app with npm.
 
     Raises:
-        RuntimeError: npm is not installed, or it failed.
+        RuntimeError: npm is missing or fails.
     """
     npm = shutil.which("npm")
     if npm is None:
         raise RuntimeError(
-            "The web app of Waypost is not built, and npm is not on the PATH. Install Node.js 20.19 or newer, "
-            "or build web/dist on another machine (npm ci && npm run build in web/) and copy it here."
+            "The web app is not built and npm is not on PATH. Install Node.js 20.19 or newer, "
+            "or build web/dist elsewhere (npm ci && npm run build in web/) and copy it here."
         )
     for arguments in (["ci"], ["run", "build"]):
         done = subprocess.run([npm, *arguments], cwd=web, check=False)  # noqa: S603

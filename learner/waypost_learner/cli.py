@@ -44,32 +44,32 @@ CheckpointsOption = Annotated[
     typer.Option(help="Folder of checkpoints. Default: beside the store; with a server, ./checkpoints."),
 ]
 ThreadsOption = Annotated[
-    int | None, typer.Option(min=1, help="CPU threads to train with. The result does not depend on it.")
+    int | None, typer.Option(min=1, help="CPU threads to train with. The result does not depend on their number.")
 ]
 
 
 @app.command()
 def train(
-    algorithm: Annotated[str, typer.Argument(help="The algorithm, such as hg-dagger; a wrong name lists all.")],
+    algorithm: Annotated[str, typer.Argument(help="The algorithm, such as hg-dagger; an unknown name lists all.")],
     domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
     instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "random",
     preset: Annotated[str, typer.Option(help="The preset: lean or paper.")] = "lean",
     seed: Annotated[int, typer.Option(min=0, help="The seed of every random choice.")] = 0,
     episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 1000,
     warm_start: Annotated[
-        int | None, typer.Option(min=0, help="Demonstrations before queries. Default: the preset's.")
+        int | None, typer.Option(min=0, help="Demonstrations at the start of the run. Default: the preset's.")
     ] = None,
-    redraw: Annotated[bool, typer.Option(help="In each episode, draw instances until one fails.")] = False,
-    head_start: Annotated[float | None, typer.Option(help="Share of an optimal trajectory to start with.")] = None,
-    values: Annotated[str | None, typer.Option(help='Values that replace the preset\'s: "relabeling=false".')] = None,
+    redraw: Annotated[bool, typer.Option(help="Draw instances until the learner fails on one.")] = False,
+    head_start: Annotated[float | None, typer.Option(help="Share of an optimal trajectory to begin with.")] = None,
+    values: Annotated[str | None, typer.Option(help='Values to replace in the preset: "relabeling=false".')] = None,
     expert: Annotated[str, typer.Option(help="Who answers: oracle (in this process) or queue (others).")] = "oracle",
     server: ServerOption = None,
     token: TokenOption = "",
     store: StoreOption = None,
     in_flight: Annotated[int, typer.Option(min=1, help="Episodes open at the same time; 1 is the paper's loop.")] = 1,
-    resume: Annotated[bool, typer.Option(help="Continue the newest unfinished run of these options.")] = False,
+    resume: Annotated[bool, typer.Option(help="Continue the newest unfinished run with these options.")] = False,
     name: Annotated[str | None, typer.Option(help="The run's name.")] = None,
-    budget: Annotated[float | None, typer.Option(min=0, help="Most units that the run may cost.")] = None,
+    budget: Annotated[float | None, typer.Option(min=0, help="The highest cost of the run, in units.")] = None,
     checkpoints: CheckpointsOption = None,
     threads: ThreadsOption = None,
     patience: PatienceOption = 300.0,
@@ -81,7 +81,7 @@ def train(
     if server is None and expert == "queue":
         refuse("With --expert queue, others answer at a server: give its address with --server URL.")
     if server is not None and store is not None:
-        refuse("The server keeps the store: give either --server or --store.")
+        refuse("A server has its own store: give either --server or --store.")
     with learner_errors("Interrupted; `--resume` continues from the last checkpoint."):
         from waypost_learner.remote.connection import connected
         from waypost_learner.remote.embedded import embedded
@@ -196,7 +196,7 @@ def gold(
     ] = None,
     patience: PatienceOption = 300.0,
 ) -> None:
-    """Make answered queries of a run gold, with the right answers from the oracle of its domain."""
+    """Make gold queries from answered queries of a run, with the right answers from the oracle of its domain."""
     with learner_errors():
         from waypost.client import Client
         from waypost_learner.experts.gold import make_gold
@@ -214,7 +214,7 @@ def practice(
     instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "corners",
     seed: Annotated[int, typer.Option(min=0, help="The seed of the rollouts.")] = 0,
 ) -> None:
-    """Write practice queries, marked by the domain's oracle. `WAYPOST_PRACTICE=FILE` makes a server offer them."""
+    """Write practice queries with the oracle's right answers. `WAYPOST_PRACTICE=FILE` makes a server offer them."""
     with learner_errors():
         from waypost.domain import find_domain
         from waypost_learner.experts.practice import practice as made
@@ -242,13 +242,13 @@ def _kinds(text: str | None) -> Any:
     kinds = tuple(kind.strip() for kind in text.split(","))
     unknown = [kind for kind in kinds if kind not in get_args(Kind)]
     if unknown:
-        refuse(f"There is no kind of query {unknown[0]!r}; those that exist are: {', '.join(get_args(Kind))}.")
+        refuse(f"There is no kind of query {unknown[0]!r}; the kinds are: {', '.join(get_args(Kind))}.")
     return kinds
 
 
 @dataclass
 class _TrainingProgress:
-    """A progress bar of a run that shows nothing if standard error is no terminal."""
+    """The progress bar of a run. It shows nothing if standard error is not a terminal."""
 
     episodes: int
 

@@ -1,6 +1,6 @@
 """Options, errors and progress bars that the learner's commands share.
 
-Modules of commands must be quick to import and must not import the learner's packages.
+Modules of commands must import quickly, so they import the learner's packages only when a command runs.
 """
 
 from collections.abc import Iterator
@@ -60,13 +60,13 @@ def learner_errors(interrupted: str = "Interrupted.") -> Iterator[None]:
 def needed(token: str) -> str:
     """Return a token; refuse an empty one."""
     if not token:
-        refuse("The server wants a token: give --token or set WAYPOST_TOKEN (`waypost token create USER` makes one).")
+        refuse("The server needs a token: give --token or set WAYPOST_TOKEN (`waypost token create USER` makes one).")
     return token
 
 
 def _sentence(error: Exception) -> str:
     text = str(error)
-    if text.split(maxsplit=1)[0].isalpha():  # not the name of a file
+    if text.split(maxsplit=1)[0].isalpha():  # a word, not a file name
         text = text[:1].upper() + text[1:]
     return text if text.endswith((".", "?")) else f"{text}."
 
@@ -75,7 +75,7 @@ def checkpoint_folder(given: Path | None, store: Path | None, server: str | None
     """Return the folder of checkpoints.
 
     Args:
-        given: the folder that the user named, which is returned if there is one.
+        given: the folder that the user named; it is returned unless it is None.
         store: the SQLite file; checkpoints are beside it unless there is a server. "waypost.db" if None.
         server: the server's address; with a server, checkpoints are in "checkpoints".
     """
@@ -88,7 +88,7 @@ def checkpoint_folder(given: Path | None, store: Path | None, server: str | None
 
 
 def progress_bar() -> Progress:
-    """Return a progress bar that shows nothing if standard error is no terminal."""
+    """Return a progress bar that shows nothing if standard error is not a terminal."""
     console = Console(stderr=True)
     return Progress(
         TextColumn("{task.description}"),

@@ -1,4 +1,7 @@
-"""`waypost demo`: a server, a learner and an oracle bot on this machine; the bot leaves queries to you at first."""
+"""`waypost demo`: a server, a learner and an oracle bot on this machine.
+
+The bot answers a query only after leaving it to you for some seconds.
+"""
 
 import os
 import signal
@@ -23,24 +26,24 @@ from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
 DEFER_SECONDS = 25.0  # for which the bot leaves a query to a person who is working
-THINKING_SECONDS = 1.0  # of the bot before each answer, so that the run is not over before the link is opened
+THINKING_SECONDS = 1.0  # the bot waits before each answer, so that the run does not end before the link is opened
 LINK_SECONDS = 86_400.0  # for which the login link is valid
-PATIENCE_SECONDS = 120.0  # after which the link is printed, even if the learner asks nothing yet
+PATIENCE_SECONDS = 120.0  # after which the link is printed even if the learner has asked nothing yet
 
 
 def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
-    """Serve until interrupted, with a learner that asks and a bot that answers what nobody else answers.
+    """Serve until interrupted, with a learner that asks queries and a bot that answers what people leave.
 
     Args:
         port: where to serve; 0 takes a free port.
         database: the SQLite file; it is created if it does not exist.
-        episodes: of the learner's run.
-        instances: the name of its instances.
+        episodes: the number of episodes of the learner's run.
+        instances: the name of the run's instances.
 
     Raises:
         ValueError: the server cannot start; the message is one sentence for the user.
     """
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that the other processes are stopped too
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that SIGTERM also stops the other processes
     settings = Settings(database=f"sqlite:///{database}", link_seconds=LINK_SECONDS)
     with _server_errors(), ExitStack() as stack:
         served = stack.enter_context(serving.background(settings, port=port))
@@ -69,7 +72,7 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
         try:
             typer.echo("First a bot demonstrates a few mazes to a learner; then the learner asks queries.")
             wait_for_queries(served.db, learner)
-            typer.echo("Answer with the keyboard; the bot answers what you leave.")
+            typer.echo("Answer with the keyboard; the bot answers the queries that you leave.")
             typer.echo(
                 f"Open this link; it works once: {login_url(served.db, served.url, 'you', 'admin', LINK_SECONDS)}"
             )
@@ -85,7 +88,7 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
 
 
 def wait_for_queries(db: Database, learner: subprocess.Popen[bytes]) -> None:
-    """Wait until a learner that was just started asks its first query that is no demonstration, or has ended."""
+    """Wait until the learner asks a query that is not a demonstration, ends, or `PATIENCE_SECONDS` have passed."""
     began = time.time()
     asked = exists().where(queries.c.kind != "hier_demo", queries.c.created_at >= began)
     while learner.poll() is None and time.time() < began + PATIENCE_SECONDS:
@@ -96,7 +99,7 @@ def wait_for_queries(db: Database, learner: subprocess.Popen[bytes]) -> None:
 
 @contextmanager
 def _server_errors() -> Iterator[None]:
-    """Turn the server's errors about its start into ValueErrors with the same sentence."""
+    """Turn errors at the server's start into ValueErrors with the same message."""
     try:
         yield
     except (serving.CannotServe, BadDatabase, NewerStore) as error:

@@ -159,11 +159,11 @@ def test_an_oracle_in_this_process_answers_at_a_real_server_too(
 
 
 def test_names_that_do_not_exist_are_refused_with_those_that_do() -> None:
-    assert "'dagger'; those that exist are: flat-bc, flat-dagger" in refused("train", "dagger")
+    assert "'dagger'; the algorithms are: flat-bc, flat-dagger" in refused("train", "dagger")
     assert re.search(
         r"'chess'; the installed domains are: .*corridor.*maze", refused("train", "h-bc", "--domain", "chess")
     )
-    assert re.search(r"'best'; those that exist are: .*paper", refused("train", "h-bc", "--preset", "best"))
+    assert re.search(r"'best'; the presets are: .*paper", refused("train", "h-bc", "--preset", "best"))
     assert "random, corners, or an .npz file" in refused("train", "h-bc", "--instances", "circles")
     assert "the only set is: random" in refused("train", "h-bc", "--domain", "corridor", "--instances", "all")
     kinds = refused("oracle", "--kinds", "inspect_full,label_all", "--token", "t")

@@ -20,21 +20,21 @@ from waypost_learner.policies.levels import HIERARCHY, Levels
 from waypost_learner.rollout.simulator import Start
 
 Episode = Callable[[Start, Learner], Generator[Query, Any, Labels]]
-"""One episode of an algorithm: yields queries, receives their answers, and returns what they taught."""
+"""One episode of an algorithm: yields queries, receives their answers, and returns the episode's labels."""
 
 
 @dataclass(frozen=True)
 class Algorithm:
-    """One algorithm: its episodes, and which policies its learner has."""
+    """One algorithm: the functions that run its episodes, and the policies of its learner."""
 
     episode: Episode
     warm_start: Episode | None = None  # replaces `episode` in the first episodes; no warm start if None
     levels: Levels = HIERARCHY
-    monitored: bool = False  # whether it begins with Inspect_FULL, and learns nothing from episodes that pass
+    monitored: bool = False  # whether episodes begin with Inspect_FULL and give no labels if they pass
 
     @property
     def interactive(self) -> bool:
-        """Whether, after a warm start of demonstrations, the expert labels the learner's own rollouts."""
+        """Whether the expert labels the learner's own rollouts after a warm start of demonstrations."""
         return self.warm_start is not None
 
 
@@ -57,8 +57,8 @@ def find_algorithm(name: str) -> Algorithm:
     """Return the algorithm called `name`.
 
     Raises:
-        ValueError: there is none; the message lists those that exist.
+        ValueError: no algorithm has this name; the message lists the names.
     """
     if name not in ALGORITHMS:
-        raise ValueError(f"there is no algorithm {name!r}; those that exist are: {', '.join(sorted(ALGORITHMS))}")
+        raise ValueError(f"there is no algorithm {name!r}; the algorithms are: {', '.join(sorted(ALGORITHMS))}")
     return ALGORITHMS[name]

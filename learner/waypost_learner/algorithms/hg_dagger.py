@@ -1,6 +1,6 @@
 """Hierarchically guided DAgger, hg-DAgger (Le et al. 2018, Algorithm 2).
 
-Not the human-gated HG-DAgger of Kelly et al. (arXiv 1810.02890), which is another algorithm.
+This is not the human-gated HG-DAgger of Kelly et al. (arXiv 1810.02890).
 """
 
 from collections.abc import Generator

@@ -37,11 +37,11 @@ class Learner:
 
     Args:
         domain: where to act.
-        preset: the values of learning.
-        seed: fixes every draw.
+        preset: the learning parameters.
+        seed: fixes every random choice.
         levels: which policies there are, and how each level learns.
         threads: CPU threads to train with; one per core if None.
-        head_start: gives the actions that are carried out before the learner begins; none if None.
+        head_start: returns the actions that are carried out before the learner begins; no actions if None.
     """
 
     def __init__(
@@ -84,7 +84,7 @@ class Learner:
         return len(self.domain.subgoals if key == META else self.domain.actions)
 
     def _seed(self, key: PolicyKey) -> int:
-        # Numbers begin at -2, and a seed sequence takes none below 0.
+        # The numbers of policies begin at -2, but a seed sequence takes no negative numbers.
         return int(np.random.SeedSequence([self.seed, key.number + 2]).generate_state(1)[0])
 
     # --- rollouts
@@ -94,19 +94,19 @@ class Learner:
         return Simulator(self.domain, self._head_start)
 
     def start(self, instance: Any, draw: int) -> Start:
-        """Return the start state s of an instance, which is the run's `draw`-th."""
+        """Return the start state s of an instance; `draw` is the number of this instance in the run."""
         simulator = self.make_simulator()
         return Start(simulator.reset(instance), instance, draw, simulator)
 
     def roll_out(self, s: Start) -> Trajectory:
-        """Roll out the present policies from s.
+        """Roll out the current policies from s.
 
         Q-functions explore, and are updated after their choices (Algorithm 3, lines 9 to 11).
         """
         return run(self.rollout(s.simulator, s.instance, streams.TRAIN, s.draw), self.policies, self._stepped)
 
     def draw_one(self, s: Start, sigma: Trajectory) -> int:
-        """Return the position of a random segment of sigma, rolled out from s; all are equally likely."""
+        """Return the position of a random segment of sigma, a rollout from s. All segments are equally likely."""
         return int(np.random.default_rng([self.seed, streams.SEGMENT, s.draw]).integers(len(sigma)))
 
     def _stepped(self, key: PolicyKey) -> None:
@@ -115,13 +115,13 @@ class Learner:
             self.q[owner].step()
 
     def rollout(self, simulator: Simulator, instance: Any, stream: int, number: int) -> Rollout:
-        """Return a rollout under the present policies, ready to be run.
+        """Return a rollout of the current policies, ready to be run.
 
         Args:
             simulator: the environment to use.
             instance: where to start.
             stream: `streams.TRAIN`, where Q-functions explore, or `streams.TEST`.
-            number: of the rollout in its stream; with the seed and the stream it fixes every random choice.
+            number: the rollout's number in its stream. Seed, stream and number fix every random choice.
         """
         exploring = {key: self.q[view.owner] for key, view in self.views.items() if view.owner in self.q}
         rollouts = self.preset.rollouts
@@ -140,7 +140,10 @@ class Learner:
     # --- learning
 
     def learn(self, labels: Labels) -> None:
-        """Append to the data buffers, then Train the policies whose turn it is (docs/paper.md, deviation 6)."""
+        """Append labels to the data buffers, then Train policies (docs/paper.md, deviation 6).
+
+        The trained policies are those with new rows, and those that train after every episode.
+        """
         sizes = {key: len(data) for key, data in self.data.items()}
         use, dqn = self.preset.use, self.preset.training.dqn
         relabeling = self.domain if use.relabeling and isinstance(self.domain, Structured) else None
@@ -154,14 +157,14 @@ class Learner:
         list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), self.due))
 
     def train_idle(self) -> None:
-        """Train the policies of the last `learn` once more, by their preset's `idle` rows, while the expert is busy."""
+        """Train the policies that the last `learn` trained on `idle` further rows each, while the expert answers."""
         list(self._threads.map(lambda key: self.imitators[key].train_idle(self.data[key]), self.due))
         self.due = []
 
     def _append_rows(self, rows: Rows, symmetries: Sequence[Symmetry]) -> None:
-        """Append rows to the buffers, then the same rows in each symmetry.
+        """Append rows to the buffers, then the same rows transformed by each symmetry.
 
-        Rows of a policy that is tied to another are not kept: a symmetry gives them to the other.
+        A policy that is tied to another policy has no buffer: a symmetry turns its rows into rows of the other policy.
         """
         for each in (None, *symmetries):
             for key, found in (rows if each is None else transformed_rows(rows, each)).items():
@@ -170,7 +173,7 @@ class Learner:
                     self.data[key].append(replace(row, observation=observe(row.observation)) for row in found)
 
     def _append_transitions(self, transitions: Transitions, symmetries: Sequence[Symmetry]) -> None:
-        """Append transitions to the replay buffers, then the same transitions in each symmetry."""
+        """Append transitions to the replay buffers, then the same transitions transformed by each symmetry."""
         for each in (None, *symmetries):
             for key, found in (transitions if each is None else transformed_transitions(transitions, each)).items():
                 if key in self.q:

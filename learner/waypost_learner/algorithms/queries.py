@@ -1,7 +1,7 @@
 """The queries of the algorithms: the paper's six verbs (section 3).
 
-An algorithm yields a query and receives the answer that is named in the query's docstring. It does not know who
-answers, where, and at what price.
+An algorithm yields a query and receives an answer of the type that the query's docstring names. It does not know who
+answers, where, or at what price.
 """
 
 from dataclasses import dataclass

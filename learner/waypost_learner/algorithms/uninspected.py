@@ -1,4 +1,4 @@
-"""An episode without queries, for sampled monitoring: its success is already known well enough."""
+"""An episode without queries, which sampled monitoring runs when the expert does not inspect the episode."""
 
 from collections.abc import Generator
 from typing import Any

@@ -148,7 +148,7 @@ def _paper(instances: str) -> Series:
     return Series(TrainConfig("hg-dagger", instances=instances, preset="paper"), "hg-DAgger, paper", True, most=1)
 
 
-_AT_ONCE = "train_hi.idle=0 train_lo.idle=0"  # no continued training: nearly every episode of these brings labels
+_AT_ONCE = "train_hi.idle=0 train_lo.idle=0"  # no continued training: nearly every episode of these gives labels
 _SAMPLED = "monitoring.share=0.1 monitoring.rate=0.9"
 _FAILING = 100  # episodes: most of them fail and are labeled completely, so they cost more than 300 successful ones
 

@@ -16,27 +16,27 @@ from waypost.domain import Domain, find_domain
 from waypost_learner.experts.oracle import OracleExpert
 
 _LOST = frozenset({"lease-expired", "lease-ended", "query-cancelled"})
-"""Refusals after which the bot continues with the next query, because somebody else has this one."""
+"""Refusals that mean that the bot no longer holds the query. It continues with the next one."""
 
 
 @dataclass(frozen=True)
 class BotSettings:
-    """Which queries a bot answers, how well and how fast."""
+    """Which queries a bot answers, and how correctly and how fast."""
 
     run: str | None = None  # only this run
     kinds: tuple[wire.Kind, ...] | None = None  # only these kinds
     error_rate: float = 0.0  # share of answers with random labels
-    seconds: float = 0.0  # before each answer
+    seconds: float = 0.0  # to wait before each answer
     defer: float = 0.0  # seconds for which it leaves queries to people who are working
-    seed: int = 0  # of its wrong answers
+    seed: int = 0  # fixes its wrong answers
 
 
 class Bot:
     """Answers queries with the oracle of their run's domain.
 
     Args:
-        client: of a user who may answer.
-        settings: which queries to answer and how; all of them, correctly and at once, if None.
+        client: the client of a user who may answer.
+        settings: which queries to answer, and how; if None, answer all queries, correctly and at once.
     """
 
     def __init__(self, client: Client, settings: BotSettings | None = None) -> None:
@@ -99,7 +99,7 @@ class Bot:
             case wire.LabelFullAnswer():
                 return answer.model_copy(update={"actions": [self._any(names.actions) for _ in answer.actions]})
             case wire.HierDemoAnswer():
-                return answer  # random actions would be no demonstration
+                return answer  # random actions would not be a demonstration
 
     def _any(self, names: list[str]) -> str:
         return names[int(self._rng.integers(len(names)))]

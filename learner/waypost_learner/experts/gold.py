@@ -7,12 +7,12 @@ from waypost_learner.experts.solutions import solve
 
 
 def make_gold(client: Client, run: str, queries: int) -> int:
-    """Make answered queries of a run gold, and return how many gold queries the run has now.
+    """Make gold queries from answered queries of a run, and return how many gold queries the run has now.
 
     Demonstrations cannot be gold.
 
     Args:
-        client: of a user who may edit the run.
+        client: the client of a user who may edit the run.
         run: the run's id.
         queries: how many of its answered queries, newest first.
 

@@ -14,8 +14,8 @@ def head_start(domain: Domain, share: float) -> HeadStart:
     """Return a function from an instance to the first actions of the oracle's demonstration on it.
 
     Args:
-        domain: whose oracle demonstrates.
-        share: of the demonstration's actions, rounded down.
+        domain: the domain; its oracle demonstrates.
+        share: the share of the demonstration's actions; their number is rounded down.
 
     Raises:
         ValueError: the domain has no oracle, or the share is not between 0 and 1.

@@ -1,7 +1,7 @@
 """The computed expert: answers to the paper's six verbs (section 3), from a domain's oracle.
 
-It answers wire queries from what is on the wire. So the in-process expert and the oracle bot are the same code. Where
-the learner's own choice is right, that choice is the label: a tie counts as agreement.
+It needs only the content of a wire query, so the in-process expert and the oracle bot are the same code. If the
+learner's own choice is right, this choice becomes the label: a tie counts as agreement.
 """
 
 from collections.abc import Sequence
@@ -14,10 +14,10 @@ from waypost_learner.experts.solutions import solve
 
 
 class OracleExpert:
-    """mu*, pi*_g and beta*_g of a domain, as answers to queries.
+    """Answers queries with mu*, pi*_g and beta*_g of a domain.
 
     Args:
-        domain: whose oracle to ask.
+        domain: the domain; its oracle answers.
 
     Raises:
         ValueError: the domain has no oracle.
@@ -36,7 +36,7 @@ class OracleExpert:
         return _preferred(ask, solve(self._domain, ask).known)
 
     def demonstrate(self, instance: Any, state: Any) -> wire.HierDemoAnswer:
-        """Return the oracle's preferred way from a state, given by its JSON view, to the accomplished task."""
+        """Return the oracle's demonstration from a state, given by its JSON view, until the task is accomplished."""
         segments = []
         while not self._oracle.succeeded(instance, state):
             subgoal = self._oracle.good_subgoals(instance, state)[0]
@@ -53,11 +53,11 @@ class OracleExpert:
 
 
 def _preferred(ask: Any, known: wire.Known) -> wire.Answer:
-    """Return the right answer that agrees with the learner wherever it can, and else prefers what the oracle prefers.
+    """Return a right answer: for each label the learner's own choice if it is right, else the oracle's preferred one.
 
     Args:
-        ask: the query, of another kind than `hier_demo`.
-        known: what is right for it.
+        ask: the query, of any kind except `hier_demo`.
+        known: its right answers.
     """
     match known:
         case wire.KnownVerdict():
@@ -70,11 +70,11 @@ def _preferred(ask: Any, known: wire.Known) -> wire.Answer:
             return wire.LabelFullAnswer(kind="label_full", actions=_choices(own, known.actions))
         case wire.KnownSegment():
             (segment,) = ask.segments
-            unlabeled = [None] * (len(segment.actions) - len(known.actions))  # from where the segment should end
+            unlabeled = [None] * (len(segment.actions) - len(known.actions))  # after the segment should end
             return wire.LabelLoAnswer(
                 kind="label_lo",
                 actions=[*_choices(segment.actions, known.actions), *unlabeled],
-                # Only the first true termination counts. The page sends the same, so equal labels are equal answers.
+                # Only the first true termination counts. The web app sends the same, so equal labels are equal answers.
                 terminations=[step == known.end for step in range(len(segment.states))],
             )
 

@@ -18,7 +18,7 @@ from waypost_learner.rollout.simulator import Simulator
 
 WRONG_SUBGOAL, WRONG_ACTION, WRONG_END = 0.12, 0.04, 0.1  # probabilities of the learner's errors
 CANDIDATES = 150  # rollouts from which the exercises are picked
-MOST_ACTIONS, MOST_SEGMENTS = 14, 6  # of one exercise
+MOST_ACTIONS, MOST_SEGMENTS = 14, 6  # upper limits for one exercise
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ def practice(domain: Domain, instances: str, seed: int) -> str:
     """Return the text of a file of practice queries: two of each kind, if the rollouts contain suitable ones.
 
     Args:
-        domain: whose oracle marks them.
+        domain: the domain; its oracle gives the right answers.
         instances: the name of a set of instances, or a file.
         seed: fixes the rollouts.
 
@@ -81,7 +81,7 @@ def _rollouts(domain: Domain, instances: str, seed: int) -> Iterator[Rollout]:
 
 @dataclass(frozen=True)
 class Pick:
-    """How to pick one exercise: the query of a rollout whose `worth` is highest, if that is above 0."""
+    """How to pick one exercise: take the query with the highest `worth` of all rollouts, if it is above 0."""
 
     queries: Callable[[Rollout], Iterator[Query]]
     worth: Callable[[wire.Known, wire.Ask], float]
@@ -160,14 +160,14 @@ def _right(known: wire.Known) -> list[list[str]]:
 
 
 def _errors(known: wire.Known, ask: wire.Ask) -> int:
-    """Return in how many labels the learner's own choice is wrong."""
+    """Return the number of labels for which the learner's own choice is wrong."""
     suggestion: Any = ask.suggestion
     own = suggestion.subgoals if isinstance(known, wire.KnownSubgoals) else suggestion.actions
     return sum(choice not in right for choice, right in zip(own, _right(known), strict=False))
 
 
 def _choices(known: wire.Known) -> int:
-    """Return in how many labels several choices are right."""
+    """Return the number of labels for which several choices are right."""
     return sum(len(right) > 1 for right in _right(known))
 
 

@@ -1,6 +1,6 @@
 """Find every right answer to a query, and the reasons, from a domain's oracle.
 
-Gold queries and practice queries are marked against a solution. `OracleExpert` picks its answer from it.
+Answers to gold queries and practice queries are marked against a solution. `OracleExpert` picks its answers from it.
 """
 
 from collections.abc import Sequence
@@ -20,10 +20,10 @@ class Solution:
 
 
 def solve(domain: Domain, ask: wire.Ask) -> Solution:
-    """Return all that is right for a query. The first right choice of a label is the oracle's preferred one.
+    """Return all right answers to a query. The first right choice of a label is the oracle's preferred one.
 
     Raises:
-        ValueError: the domain has no oracle, or the query is a demonstration, which many answers fulfil equally well.
+        ValueError: the domain has no oracle, or the query is a demonstration, which has many equally good answers.
     """
     if domain.oracle is None:
         raise ValueError(f"the domain {domain.name!r} has no oracle, so its right answers are not known")
@@ -53,12 +53,12 @@ def _subgoals(domain: Domain, oracle: Oracle, ask: wire.AskLabelHi) -> Solution:
     for segment in ask.segments:
         names = [domain.subgoals[good] for good in oracle.good_subgoals(ask.instance, segment.states[0])]
         right.append(names)
-        reasons.append(_reason(names, segment.subgoal, "leads on by a shortest way from here"))
+        reasons.append(_reason(names, segment.subgoal, "is on a shortest path from here"))
     return Solution(wire.KnownSubgoals(kind="label_hi", subgoals=right), tuple(reasons))
 
 
 def _segment(domain: Domain, oracle: Oracle, ask: wire.AskLabelLo) -> Solution:
-    """Return the right actions up to where the segment should end, which is where its labels end."""
+    """Return the right actions up to the state where the segment should end, and this state."""
     (segment,) = ask.segments
     origin, subgoal, name = segment.states[0], _subgoal(domain, segment), _quoted(segment.subgoal)
     right, reasons, end = list[list[str]](), list[str](), None
@@ -77,7 +77,7 @@ def _segment(domain: Domain, oracle: Oracle, ask: wire.AskLabelLo) -> Solution:
             break
         names = [domain.actions[action] for action in good]
         right.append(names)
-        reasons.append(_reason(names, own, f"brings {name} nearer"))
+        reasons.append(_reason(names, own, f"leads toward {name}"))
     return Solution(wire.KnownSegment(kind="label_lo", actions=right, end=end), tuple(reasons))
 
 
@@ -85,7 +85,7 @@ def _actions(domain: Domain, oracle: Oracle, ask: wire.AskLabelFull) -> Solution
     right, reasons = list[list[str]](), list[str]()
     for segment in ask.segments:
         for state, own in zip(segment.states, segment.actions, strict=False):
-            # An action is on a shortest way to the goal if it is good toward one of the good subgoals.
+            # An action is on a shortest path to the goal if it is good toward one of the good subgoals.
             good = {
                 action: None
                 for subgoal in oracle.good_subgoals(ask.instance, state)
@@ -93,12 +93,12 @@ def _actions(domain: Domain, oracle: Oracle, ask: wire.AskLabelFull) -> Solution
             }
             names = [domain.actions[action] for action in good]
             right.append(names)
-            reasons.append(_reason(names, own, "is on a shortest way"))
+            reasons.append(_reason(names, own, "is on a shortest path"))
     return Solution(wire.KnownActions(kind="label_full", actions=right), tuple(reasons))
 
 
 def _reason(right: Sequence[str], own: str | None, does: str) -> str:
-    """Return why some choices are right, and that the learner's own is not, if it is not."""
+    """Return the reason why some choices are right; if the learner's own choice is wrong, say so too."""
     first, *others = (_quoted(name) for name in right)
     reason = f"{first} {does}" + (f"; {' and '.join(others)} is as good." if others else ".")
     return (

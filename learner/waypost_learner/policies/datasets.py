@@ -1,8 +1,8 @@
 """Data buffers of rows (observation, choice, termination): the paper's D_HI and D_g, and a flat learner's D.
 
-The choice is a subgoal in D_HI and an action elsewhere. `UNLABELED` marks a label that is not learned from: one that
-the expert did not give, the action in a state where the segment should have ended, and beta_g in a segment's first
-state, where it is never consulted (docs/paper.md, deviation 4).
+The choice is a subgoal in D_HI and an action elsewhere. `UNLABELED` marks a label that training ignores. There are
+three: a label that the expert did not give, the action in a state where the segment should have ended, and beta_g in a
+segment's first state, where it is never evaluated (docs/paper.md, deviation 4).
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -62,7 +62,7 @@ class Dataset:
         return {"observations": torch.from_numpy(packed.copy()), "sizes": sizes, "labels": labels}
 
     def load(self, tensors: Mapping[str, torch.Tensor]) -> None:
-        """Replace all rows by those that `tensors` returned."""
+        """Replace all rows by the rows that `tensors` returned."""
         packed, ends = tensors["observations"].numpy().tobytes(), tensors["sizes"].cumsum(0).tolist()
         self._observations = [packed[first:end] for first, end in pairwise([0, *ends])]
         self._labels = [(choice, termination) for choice, termination in tensors["labels"].tolist()]

@@ -1,26 +1,26 @@
-"""Which of a domain's declarations a learner uses: the values of a preset on symmetries, views and relabeling."""
+"""Defines which of a domain's declarations a learner uses: a preset's values for symmetries, views and relabeling."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class DomainUse:
-    """What a learner uses of the symmetries and the structure that a domain declares (`waypost.domain`).
+    """Which parts of a domain's declared symmetries and structure (`waypost.domain`) a learner uses.
 
-    Values on declarations that a domain does not have, have no effect there.
+    A value has no effect in a domain without the corresponding declaration.
     """
 
-    symmetries: bool = False  # whether each label is also learned from in every symmetry of the domain
+    symmetries: bool = False  # whether each label is also learned in every symmetry of the domain
     tied: bool = False  # whether subgoals that are equal up to a symmetry share one network; needs `symmetries`
-    views: bool = False  # whether policies are given the domain's views instead of whole observations
+    views: bool = False  # whether policies see the domain's views instead of whole observations
     planning: int | None = None  # features of each place for networks that plan over a view; no planning if None
-    relabeling: bool = False  # whether labels and demonstrations are also learned from as labels for other tasks
+    relabeling: bool = False  # whether labels and demonstrations also give labels of other tasks
 
     def __post_init__(self) -> None:
         """Refuse values that contradict each other.
 
         Raises:
-            ValueError: one value needs another; the message says which and what to write.
+            ValueError: a value needs another value; the message names both and says what to write.
         """
         if self.tied and not self.symmetries:
             raise ValueError(
@@ -37,4 +37,4 @@ class DomainUse:
 
 
 NOTHING_DECLARED = DomainUse()
-"""Uses no declaration of a domain, as the paper."""
+"""Uses no declaration of a domain, like the paper."""

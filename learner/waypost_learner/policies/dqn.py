@@ -17,11 +17,11 @@ from waypost_learner.rollout.rollout import Outputs
 
 @dataclass(frozen=True)
 class DqnSpec:
-    """The values of Q-learning."""
+    """The learning parameters of a Q-function."""
 
     learning_rate: float = 5e-4
     batch: int = 64  # transitions
-    update_every: int = 4  # steps of the learner
+    update_every: int = 4  # steps under this Q-function
     discount: float = 0.9  # gamma
     target_every: int = 100  # updates
     capacity: int = 100_000  # transitions
@@ -29,10 +29,10 @@ class DqnSpec:
     alpha: float = 0.6  # exponent of priorities
     beta: float = 0.4  # initial exponent of the importance weights; it grows to 1 in `beta_updates`
     beta_updates: int = 20_000
-    # epsilon in training, by steps of the same Q-function; linear in between
+    # epsilon in training, by the number of steps under this Q-function; linear in between
     epsilon: tuple[tuple[int, float], ...] = ((0, 1.0), (2_000, 0.1), (12_000, 0.01))
     pseudo: PseudoReward = field(default_factory=PseudoReward)
-    symmetries: bool = True  # whether each transition is also learned from in every symmetry of the domain
+    symmetries: bool = True  # whether each transition is also learned in every symmetry of the domain
     bf16: bool = True  # mixed precision where the device supports bf16
 
 
@@ -40,10 +40,10 @@ class QFunction:
     """A Q-function with its target network, optimizer, replay buffer and exploration rate.
 
     Args:
-        observation_shape: of what it is given.
-        n_choices: how many subgoals or actions it values.
-        network: the network's form.
-        spec: the values of Q-learning.
+        observation_shape: the shape of its observations.
+        n_choices: the number of subgoals or actions.
+        network: the kind and the sizes of the network.
+        spec: the learning parameters.
         seed: fixes initial weights and sampling.
     """
 
@@ -79,7 +79,7 @@ class QFunction:
 
     @property
     def epsilon(self) -> float:
-        """The present probability of a random choice in training."""
+        """The current probability of a random choice in training."""
         steps, values = zip(*self.spec.epsilon, strict=True)
         return float(np.interp(float(self.steps), steps, values))
 

@@ -1,4 +1,4 @@
-"""Policies that imitate: mu, pi_g with beta_g, and flat policies as networks, and the paper's Train(policy, D).
+"""Imitation policies (mu, pi_g with beta_g, flat policies) as networks, and the paper's Train(policy, D).
 
 mu chooses among subgoals; pi_g and flat policies choose among actions. beta_g is one more output of pi_g ("one can also
 view the subgoal termination classifier as an extra head of the subgoal policy network", appendix).
@@ -22,41 +22,41 @@ from waypost_learner.rollout.rollout import Outputs
 
 @dataclass(frozen=True)
 class TrainSpec:
-    """The values of Train."""
+    """The learning parameters of Train."""
 
     learning_rate: float = 5e-4
     batch: int = 32  # rows
     passes: int = 1  # over the buffer in each call of Train
-    least: int = 1024  # fewest rows in each call: a small buffer is passed over more often
+    least: int = 1024  # fewest rows in each call: a small buffer is used for more passes
     most: int = 6144  # most rows in each call
     idle: int = 0  # further rows, trained on while the expert answers the next query
     dropout: float = 0.5
     weight_decay: float = 0.0
-    averaging: float | None = None  # decay of the average of the weights, which then acts; no average if None
-    every_episode: bool = False  # whether to train after each episode, also if it added nothing to the buffer
+    averaging: float | None = None  # decay of the moving average of the weights, which then acts; no average if None
+    every_episode: bool = False  # whether to train after each episode, even if it added no rows
     bf16: bool = True  # mixed precision where the device supports bf16
 
     def __post_init__(self) -> None:
-        """Refuse numbers with which nothing could be trained.
+        """Refuse numbers out of their range.
 
         Raises:
             ValueError: a number is out of its range; the message gives the ranges.
         """
         if min(self.batch, self.most) < 1 or min(self.passes, self.least, self.idle) < 0:
-            raise ValueError("training takes batch and most from 1 on, and passes, least and idle from 0 on")
+            raise ValueError("training needs batch and most of at least 1, and passes, least and idle of at least 0")
         if self.averaging is not None and not 0 <= self.averaging < 1:
-            raise ValueError("training takes an averaging from 0 to below 1, or null")
+            raise ValueError("training needs an averaging of at least 0 and less than 1, or null")
 
 
 class Policy:
     """A policy network with its optimizer and its random generator.
 
     Args:
-        observation_shape: of what it is given.
-        n_choices: how many subgoals or actions it chooses from.
+        observation_shape: the shape of its observations.
+        n_choices: the number of subgoals or actions.
         terminates: whether it has one more output, the logit of beta_g.
-        network: the network's form.
-        train: the values of Train.
+        network: the kind and the sizes of the network.
+        train: the learning parameters of Train.
         seed: fixes initial weights, dropout and the order of rows.
     """
 

@@ -1,4 +1,4 @@
-"""Collect what one episode taught, and derive the rows and transitions that the data buffers take from it.
+"""Collect the labels and the experience of one episode, and turn them into rows and transitions for the data buffers.
 
 An algorithm appends to `Labels` in the order of the paper's lines. `rows_of` and `transitions_of` turn labels into
 buffer entries by policy; `transformed_rows` and `transformed_transitions` apply a symmetry of the domain to them.
@@ -27,7 +27,7 @@ class LoLabels:
 
 @dataclass
 class Labels:
-    """What one episode taught: the expert's labels and demonstrations, and the learner's own experience."""
+    """The results of one episode: the expert's labels and demonstrations, and the learner's own experience."""
 
     hi: list[tuple[Trajectory, tuple[Subgoal, ...]]] = field(default_factory=list)
     lo: list[tuple[Segment, LoLabels]] = field(default_factory=list)
@@ -93,7 +93,7 @@ def transitions_of(labels: Labels) -> Transitions:
 
 
 def transformed_rows(rows: Mapping[PolicyKey, Sequence[Row]], symmetry: Symmetry) -> Rows:
-    """Return rows in a symmetry of the domain: observations, choices and policies are the transformed ones."""
+    """Return the rows with observations, choices and policies transformed by a symmetry of the domain."""
 
     def transformed(key: PolicyKey, row: Row) -> Row:
         choice = UNLABELED if row.choice == UNLABELED else _choices(symmetry, key)[row.choice]
@@ -103,7 +103,7 @@ def transformed_rows(rows: Mapping[PolicyKey, Sequence[Row]], symmetry: Symmetry
 
 
 def transformed_transitions(transitions: Mapping[PolicyKey, Sequence[Transition]], symmetry: Symmetry) -> Transitions:
-    """Return transitions in a symmetry of the domain: observations, choices and policies are the transformed ones."""
+    """Return the transitions with observations, choices and policies transformed by a symmetry of the domain."""
 
     def transformed(key: PolicyKey, one: Transition) -> Transition:
         return replace(one.observed(symmetry.observe), choice=_choices(symmetry, key)[one.choice])
@@ -112,7 +112,7 @@ def transformed_transitions(transitions: Mapping[PolicyKey, Sequence[Transition]
 
 
 def _extend(rows: Rows, segment: Segment, labels: LoLabels) -> None:
-    """Add the rows of one labeled segment to those of its subgoal's policy."""
+    """Add the rows of one labeled segment to the rows of its subgoal's policy."""
     assert segment.subgoal is not None
     into = rows.setdefault(pi(segment.subgoal), [])
     steps = zip(segment.states, (*labels.actions, None), labels.terminations, strict=True)
@@ -126,7 +126,7 @@ def _extend(rows: Rows, segment: Segment, labels: LoLabels) -> None:
 
 
 def _flat_rows(trajectory: Trajectory, good_actions: Sequence[Action]) -> Iterable[Row]:
-    """Return a row for each different pair of observation and action; a learner that goes in circles repeats them."""
+    """Return one row for each different pair of observation and action. Learners that go in circles repeat pairs."""
     states = [state for segment in trajectory for state in segment.states[:-1]]
     pairs = zip((state.observation for state in states), good_actions, strict=True)
     return {(observation.tobytes(), action): Row(observation, action) for observation, action in pairs}.values()
@@ -142,5 +142,5 @@ def _key(symmetry: Symmetry, key: PolicyKey) -> PolicyKey:
 
 
 def _choices(symmetry: Symmetry, key: PolicyKey) -> tuple[int, ...]:
-    """Return what each choice of a policy becomes."""
+    """Return, for each choice of a policy, the transformed choice."""
     return symmetry.subgoals if key == META else symmetry.actions

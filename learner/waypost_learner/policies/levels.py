@@ -1,4 +1,4 @@
-"""Which policies a learner consists of, and how each level of them learns."""
+"""Defines which policies a learner has, and whether each level learns by imitation or by reinforcement."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 
 @dataclass(frozen=True)
 class Levels:
-    """A hierarchy of mu and pi_g, or one flat policy; each level imitates or learns by reinforcement."""
+    """A hierarchy of mu and pi_g, or one flat policy; each level learns by imitation or by reinforcement."""
 
     flat: bool = False  # one flat policy instead of mu and pi_g
     q_hi: bool = False  # mu is a Q-function

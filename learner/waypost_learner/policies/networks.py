@@ -35,7 +35,7 @@ class Dropout(nn.Module):
         self._kept = round(256 * (1 - rate))
 
     def forward(self, x: torch.Tensor) -> torch.Tensor:
-        """Return x with entries zeroed at the rate and the others scaled up, in training; x itself otherwise."""
+        """In training, return x with entries zeroed at the rate and the others scaled up; otherwise return x."""
         if not self.training or self.rate == 0:
             return x
         # Random bytes are four times faster to draw than Bernoulli variables. They round the rate to 1/256.
@@ -61,7 +61,7 @@ def build_network(
     Args:
         observation_shape: (channels, rows, columns) for pictures, (features,) for vectors.
         outputs: how many logits.
-        spec: the network's form.
+        spec: the kind and the sizes of the network.
         dropout: the rate after each pool and after the fully connected layer; networks that plan have no dropout.
         rng: draws initial weights and dropout.
 
@@ -130,8 +130,8 @@ class PlanningNet(nn.Module):
     gives the cost of each move and of ending there. Soft value iteration turns the costs into values. The agent's place
     is in the middle of the picture.
 
-    Ending has a cost at every place, also if the grid has no move for it. If `outputs` is one more than the grid's
-    moves, the last output is the logit of beta_g: of ending rather than continuing.
+    Ending has a cost at every place, even if the grid has no move for it. If `outputs` is one more than the number of
+    the grid's moves, the last output is the logit of beta_g: of ending instead of continuing.
     """
 
     def __init__(self, channels: int, outputs: int, spec: PlanningSpec, rng: torch.Generator) -> None:
@@ -167,12 +167,12 @@ class PlanningNet(nn.Module):
 
 
 def _log(x: torch.Tensor) -> torch.Tensor:
-    """Return the logarithm, but about -80 at least, because float32 has no much smaller numbers than exp(-80)."""
+    """Return the logarithm, but at least about -80, because float32 cannot represent numbers much below exp(-80)."""
     return torch.log(x.clamp(min=1e-35))
 
 
 def _initialize(layers: list[nn.Module], rng: torch.Generator) -> None:
-    """Draw initial weights after Glorot, the default of the authors' framework, and zero the biases."""
+    """Draw initial weights with Glorot's method, the default of the authors' framework, and set biases to 0."""
     for layer in layers:
         if isinstance(layer, nn.Conv2d | nn.Linear):
             assert layer.bias is not None

@@ -15,7 +15,7 @@ class ReplaySpec(Protocol):
 
     @property
     def capacity(self) -> int:
-        """Most transitions that are kept."""
+        """The largest number of transitions in the buffer."""
 
     @property
     def discount(self) -> float:
@@ -33,7 +33,7 @@ class Replay:
     10 ms of an update.
 
     Args:
-        observation_shape: of the observations of both states.
+        observation_shape: the shape of the observations of both states.
         spec: capacity, discount and exponents.
     """
 
@@ -72,7 +72,7 @@ class Replay:
 
     def _make_room(self) -> None:
         room = len(self._columns["choice"])
-        if self._next == room:  # never at the capacity: there `_next` starts at 0 again
+        if self._next == room:  # never true at the capacity, where `_next` starts at 0 again
             more = min(max(room, 256), self._spec.capacity - room)
             for name, column in self._columns.items():
                 self._columns[name] = torch.cat([column, column.new_zeros((more, *column.shape[1:]))])
@@ -100,6 +100,6 @@ class Replay:
         return {**columns, "next": torch.tensor(self._next)}
 
     def load(self, tensors: Tensors) -> None:
-        """Replace the buffer by one that `tensors` returned."""
+        """Replace the buffer by the one that `tensors` returned."""
         self._columns = {name: tensors[name] for name in self._columns}
         self._size, self._next = len(tensors["choice"]), int(tensors["next"])

@@ -1,6 +1,6 @@
-"""What each policy is given of an observation, and which network answers for it.
+"""Determines which part of an observation each policy sees, and which network computes its outputs.
 
-This is where a preset's use of a domain (`DomainUse`) meets what the domain declares (`waypost.domain.Structured`).
+This depends on the preset (`DomainUse`) and on the domain's declarations (`waypost.domain.Structured`).
 """
 
 from collections.abc import Callable, Sequence
@@ -24,9 +24,9 @@ class WrappedPolicy:
     """A policy that is evaluated on transformed observations, and whose choices may be permuted.
 
     Args:
-        policy: what is evaluated.
+        policy: the policy that is evaluated.
         observe: transforms one observation.
-        choices: for each choice, the policy's choice that stands for it; the same ones if None.
+        choices: for each choice, the corresponding choice of `policy`; if None, choices are not permuted.
     """
 
     policy: Evaluate
@@ -41,13 +41,13 @@ class WrappedPolicy:
 
 @dataclass(frozen=True)
 class PolicyView:
-    """What one policy is given of an observation, and which network answers for it.
+    """The part of an observation that one policy sees, and the network that computes its outputs.
 
     Args:
-        view: the part of an observation that it is given.
-        network: the form of its network.
-        owner: the policy whose network answers: itself, or the one that it is tied to.
-        symmetry: what maps its task to the owner's; None if it is its own owner.
+        view: the part of an observation that it sees.
+        network: the kind and the sizes of its network.
+        owner: the policy whose network it uses: itself, or the policy that it is tied to.
+        symmetry: maps its task to the owner's task; None if it is its own owner.
     """
 
     view: View
@@ -64,12 +64,12 @@ class PolicyView:
 
 
 def policy_view(domain: Domain, use: DomainUse, network: NetworkSpec, key: PolicyKey) -> PolicyView:
-    """Return what a policy is given and who answers for it.
+    """Return the view and the network of a policy.
 
     Args:
-        domain: what declares views and symmetries.
+        domain: declares views and symmetries.
         use: which of these declarations to use.
-        network: the form of networks that do not plan.
+        network: the sizes of networks that do not plan.
         key: the policy.
     """
     view = _view(domain, use, key)
@@ -93,6 +93,6 @@ def _unchanged(observation: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def _tie(domain: Domain, subgoal: int) -> Symmetry | None:
-    """Return the symmetry that maps a subgoal to the lowest-numbered one it can; None if that is the subgoal itself."""
+    """Return the symmetry that maps a subgoal to the lowest possible number; None if that is its own number."""
     first = min(domain.symmetries, key=lambda one: one.subgoals[subgoal], default=None)
     return first if first is not None and first.subgoals[subgoal] < subgoal else None

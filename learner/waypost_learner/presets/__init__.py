@@ -1,4 +1,4 @@
-"""Presets: the values that fix how a run learns, in one readable file each, and other values given by name."""
+"""Finds presets by name, and replaces single values of a preset by name. Each preset has its own file."""
 
 import json
 from dataclasses import is_dataclass, replace
@@ -11,20 +11,20 @@ from waypost_learner.presets.lean import LEAN
 from waypost_learner.presets.paper import PAPER
 
 Changes = dict[str, "str | Changes"]
-"""New values as JSON, by name; the values of a specification are nested."""
+"""New values as JSON texts, by name; values of a group are nested."""
 
 PRESETS = {"lean": LEAN, "paper": PAPER}
 
 
 def find_preset(name: str, values: str | None = None) -> Preset:
-    """Return a preset, with other values where some are given: "relabeling=false train_hi.batch=32".
+    """Return a preset in which `values`, such as "relabeling=false train_hi.batch=32", replace its own values.
 
     Raises:
-        ValueError: there is no preset or no value of that name (the message lists those that exist), a text is no
-            value of its type, or the values contradict each other.
+        ValueError: no preset or value has this name (the message lists the names), a text is no value of its type, or
+            the values contradict each other.
     """
     if name not in PRESETS:
-        raise ValueError(f"there is no preset {name!r}; those that exist are: {', '.join(sorted(PRESETS))}")
+        raise ValueError(f"there is no preset {name!r}; the presets are: {', '.join(sorted(PRESETS))}")
     preset = PRESETS[name]
     groups = groups_by_value(preset)
     new: dict[str, Any] = {}
@@ -33,7 +33,7 @@ def find_preset(name: str, values: str | None = None) -> Preset:
             owner = getattr(preset, groups[value]) if groups[value] else preset
             new[value] = _changed(value, get_type_hints(type(owner))[value], value_of(preset, value), text)
         else:
-            new[value] = None  # refused below, with the names that exist
+            new[value] = None  # `with_values` refuses it and lists the names
     return preset.with_values(**new)
 
 
@@ -58,7 +58,7 @@ def parse_values(values: str | None) -> Changes:
 
 
 def _changed(name: str, of: Any, before: Any, change: str | Changes) -> Any:
-    """Return the new value of a name: parsed from JSON, or a specification with some of its values replaced."""
+    """Return the new value of a name: parsed from JSON, or a group with some of its values replaced."""
     if is_dataclass(before) != isinstance(change, dict):
         raise ValueError(f"{name!r} is {'a group of values' if is_dataclass(before) else 'no group of values'}")
     if isinstance(change, str):
@@ -66,7 +66,7 @@ def _changed(name: str, of: Any, before: Any, change: str | Changes) -> Any:
     types = get_type_hints(type(before))
     unknown = [value for value in change if value not in types]
     if unknown:
-        raise ValueError(f"there is no value {unknown[0]!r}; those that exist are: {', '.join(types)}")
+        raise ValueError(f"there is no value {unknown[0]!r}; the values are: {', '.join(types)}")
     return replace(
         before,
         **{value: _changed(value, types[value], getattr(before, value), text) for value, text in change.items()},

@@ -1,4 +1,4 @@
-"""What a preset fixes: its values, in groups, and how single values are replaced by name."""
+"""Defines the values of a preset, in groups, and how to replace single values by name."""
 
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -34,16 +34,16 @@ class Preset:
     monitoring: Monitoring = EVERY_EPISODE  # which episodes the expert inspects
 
     def with_values(self, **values: Any) -> "Preset":
-        """Return the preset with other values, each given by its own name: `with_values(relabeling=False)`.
+        """Return the preset with other values, given by name, such as `with_values(relabeling=False)`.
 
         Raises:
-            ValueError: there is no value of a name, or the values contradict each other.
+            ValueError: no value has this name, or the values contradict each other.
         """
         groups = groups_by_value(self)
         changes: dict[str, dict[str, Any]] = {}
         for name, value in values.items():
             if name not in groups:
-                raise ValueError(f"there is no value {name!r}; those that exist are: {', '.join(groups)}")
+                raise ValueError(f"there is no value {name!r}; the values are: {', '.join(groups)}")
             changes.setdefault(groups[name], {})[name] = value
         top = changes.pop("", {})
         return replace(self, **top, **{group: replace(getattr(self, group), **new) for group, new in changes.items()})
@@ -53,7 +53,7 @@ _GROUPS = ("rollouts", "training", "use")
 
 
 def groups_by_value(preset: Preset) -> dict[str, str]:
-    """Return the names of all values, each with the group that it is in; "" for values of the preset itself."""
+    """Return the group of each value by the value's name; "" for values of the preset itself."""
     found: dict[str, str] = {}
     for field in fields(preset):
         if field.name in _GROUPS:
@@ -64,6 +64,6 @@ def groups_by_value(preset: Preset) -> dict[str, str]:
 
 
 def value_of(preset: Preset, name: str) -> Any:
-    """Return the value of a name, whatever group it is in."""
+    """Return the value with this name, from any group."""
     group = groups_by_value(preset)[name]
     return getattr(getattr(preset, group) if group else preset, name)

@@ -1,4 +1,7 @@
-"""The preset `lean`: the paper's queries and prices at the least expert cost (what each value saves: docs/lean.md)."""
+"""The preset `lean`: the paper's queries and prices at the least expert cost.
+
+docs/lean.md says what each value saves.
+"""
 
 from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.dqn import DqnSpec
@@ -7,7 +10,7 @@ from waypost_learner.policies.networks import NetworkSpec
 from waypost_learner.presets.base import Preset, Training
 from waypost_learner.rollout.rollout import RolloutSpec, SelectionSpec
 
-_ROWS = 100 * 64  # in each call of Train: small data is passed over many times
+_ROWS = 100 * 64  # in each call of Train: a small buffer is used for many passes
 _IDLE_HI, _IDLE_LO = 200 * 64, 400 * 64  # LO labels are rare, so pi_g is trained in few episodes
 _HYBRID_ROWS = 20 * 64
 

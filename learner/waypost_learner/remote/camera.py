@@ -1,7 +1,7 @@
-"""Take pictures of the states in a query, for domains without a renderer in the web page (`Pictured`).
+"""Take pictures of the states in a query, for domains without a renderer in the web app (`Pictured`).
 
-Pictures are taken when a query is asked, not during the rollout: the camera repeats the actions in an environment of
-its own, because domains are deterministic. A frame is identified by the SHA-256 of its PNG.
+Pictures are taken when a query is asked, not during the rollout. The camera repeats the actions in its own environment;
+domains are deterministic, so it visits the same states. A frame is identified by the SHA-256 of its PNG.
 """
 
 import hashlib
@@ -32,7 +32,7 @@ class Camera:
         self._new: dict[str, bytes] = {}
 
     def frames(self, segments: Sequence[Segment]) -> list[list[str]]:
-        """Return the hashes of the frames of each segment's states, for the segments of an episode from its start."""
+        """Return the hashes of the frames of each segment's states. The segments begin at the start of an episode."""
         hashes = self.along([action for segment in segments for action in segment.actions])
         ends, frames = 0, []
         for segment in segments:

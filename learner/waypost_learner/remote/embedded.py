@@ -83,7 +83,7 @@ def stored_runs(file: Path) -> Iterator[StoredRuns]:
 
 @contextmanager
 def _unusable_store() -> Iterator[None]:
-    """Turn the server's errors about a store into ValueErrors with the same sentence."""
+    """Turn the server's errors about a store into ValueErrors with the same message."""
     try:
         yield
     except (BadDatabase, NewerStore) as error:

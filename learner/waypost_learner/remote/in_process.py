@@ -20,7 +20,7 @@ class InProcessTransport(httpx2.BaseTransport):
     """Runs an app in an event loop on its own thread. Use it as a context manager.
 
     Args:
-        app: what answers the requests.
+        app: answers the requests.
     """
 
     def __init__(self, app: FastAPI) -> None:

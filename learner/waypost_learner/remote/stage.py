@@ -1,7 +1,7 @@
-"""Offer the learner's environment over the play socket, so that a person can give a demonstration in the web page.
+"""Offer the learner's environment over the play socket, so that a person can give a demonstration in the web app.
 
-The page sends all actions of the demonstration each time, and this side carries them out. So nothing is lost when a
-connection, an environment or a process ends: the page connects again and sends all actions again.
+The web app sends all actions of the demonstration each time, and the learner carries them out. So nothing is lost when
+a connection, an environment or a process ends: the web app connects again and sends all actions again.
 """
 
 import logging
@@ -20,7 +20,7 @@ from waypost_learner.remote.translation import Translator
 from waypost_learner.rollout.simulator import Simulator
 
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.1, 2.0  # seconds between attempts to connect
-_PASSING = frozenset({408, 429})  # client errors after which to try again, as after server errors
+_PASSING = frozenset({408, 429})  # client errors after which to connect again, as after server errors
 
 log = logging.getLogger("waypost")
 
@@ -32,7 +32,7 @@ class Stage:
     """One instance's environment, in the state that a demonstration has reached.
 
     Args:
-        translator: of the demonstration's query.
+        translator: the translator of the demonstration's query.
         upload: called with frames to upload, PNG files by hash.
     """
 
@@ -43,7 +43,7 @@ class Stage:
         self._begin()
 
     def perform(self, moves: wire.PlayMoves) -> wire.PlayStates:
-        """Carry out the actions of a demonstration, and return the states that the page does not know."""
+        """Carry out the actions of a demonstration, and return the states that the web app does not have."""
         names = self._translator.domain.actions
         actions = [names.index(action) for segment in moves.segments for action in segment.actions]
         if self._actions != actions[: len(self._actions)]:  # actions were taken back
@@ -79,7 +79,7 @@ class Offer:
 
     Args:
         connect: opens the play socket of the query.
-        translator: of the query.
+        translator: the translator of the query.
         upload: called with frames to upload.
     """
 
@@ -132,7 +132,7 @@ def offer(connect: Connect, translator: Translator, upload: Upload) -> Callable[
 def _refusal(trouble: Exception) -> int | None:
     """Return the status of a permanent refusal; None if connecting again may succeed.
 
-    A status is the handshake's, or a close code minus 4,000.
+    The status is the handshake's HTTP status, or the close code minus 4,000.
     """
     if isinstance(trouble, InvalidStatus):
         status = trouble.response.status_code

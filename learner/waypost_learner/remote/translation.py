@@ -1,4 +1,7 @@
-"""Translate queries to the wire and answers from it: numbers and states here, names and JSON views there."""
+"""Translate queries to wire messages, and wire messages to answers.
+
+The learner uses numbers and states; wire messages use names and JSON views.
+"""
 
 from collections.abc import Sequence
 from typing import Any
@@ -32,9 +35,9 @@ class Translator:
     """Translates the queries and answers of one episode.
 
     Args:
-        domain: whose names and views to use.
-        instance: where the episode starts.
-        camera: takes the pictures that queries carry; they carry none if None.
+        domain: the domain; its names and views are used.
+        instance: the instance of the episode.
+        camera: takes the pictures in queries; if None, queries have no pictures.
     """
 
     def __init__(self, domain: Domain, instance: Any, camera: Camera | None = None) -> None:
@@ -106,7 +109,7 @@ class Translator:
                 )
 
     def answer(self, answer: wire.Answer) -> Answer:
-        """Return an answer in the form that the query's docstring in `algorithms/queries.py` promises."""
+        """Return an answer in the type that the query's docstring in `algorithms/queries.py` names."""
         match answer:
             case wire.HierDemoAnswer():
                 return self._replay(answer.segments)
@@ -123,7 +126,7 @@ class Translator:
     def _replay(self, segments: Sequence[wire.DemoSegment]) -> Trajectory:
         """Carry out a demonstration in the environment, to get the observations along it.
 
-        Actions after the end of the episode are left out.
+        Actions after the end of the episode are ignored.
         """
         simulator = Simulator(self.domain)
         state = simulator.reset(self.instance)
@@ -142,7 +145,7 @@ class Translator:
         return tuple(sigma)
 
     def _with_context(self, before: Trajectory, asked: Trajectory) -> dict[str, Any]:
-        """Return the segments of a query, and as its context the segments before them."""
+        """Return the fields `segments` and `context` of a query: the segments that it asks about, and earlier ones."""
         segments = self._segments([*before, *asked])
         return {"segments": segments[len(before) :], "context": segments[: len(before)]}
 

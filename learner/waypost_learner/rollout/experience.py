@@ -11,13 +11,13 @@ from waypost.trajectory import Segment, Trajectory
 
 @dataclass(frozen=True)
 class Transition:
-    """(s, choice, r, s~): the choice is an action, or a subgoal together with all the steps it took."""
+    """(s, choice, r, s~): the choice is an action, or a subgoal with all steps that carried it out."""
 
     observation: NDArray[np.float32]
     choice: int
-    reward: float  # of all its steps, discounted to the first
+    reward: float  # the sum over its steps, discounted to the first step
     next_observation: NDArray[np.float32]
-    steps: int  # how many the choice took; 0 if s~ is terminal
+    steps: int  # the number of steps of the choice; 0 if s~ is terminal
 
     def observed(self, observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]) -> "Transition":
         """Return the same transition with both observations mapped by `observe`."""

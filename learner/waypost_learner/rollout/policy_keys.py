@@ -5,7 +5,7 @@ from typing import Literal
 
 from waypost.trajectory import Subgoal
 
-_NUMBERS = {"hi": -1, "flat": -2}  # of the policies that are not a subgoal's
+_NUMBERS = {"hi": -1, "flat": -2}  # the numbers of policies without a subgoal
 
 
 @dataclass(frozen=True)

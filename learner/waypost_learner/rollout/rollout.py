@@ -27,7 +27,7 @@ class Outputs:
 
 
 Policies = Mapping[PolicyKey, Callable[[NDArray[np.float32]], Outputs]]
-"""Each policy, as a function of a batch float32[B, observation shape]; a `Policy` or a `QFunction`, for example."""
+"""Each policy as a function of a batch float32[B, observation shape], such as a `Policy` or a `QFunction`."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Consult:
 
 @dataclass(frozen=True)
 class SelectionSpec:
-    """Action selection: how a policy's outputs become choices, in training and in test."""
+    """How a policy's outputs become choices, in training and test rollouts."""
 
     temperature: float = 0.1  # of the softmax from which choices are drawn; 0 takes the highest logit
     termination_threshold: float = 0.9  # beta_g is true above it
@@ -48,15 +48,15 @@ class SelectionSpec:
 
 @dataclass(frozen=True)
 class RolloutSpec:
-    """The values of a preset that fix how policies are rolled out."""
+    """The values of a preset that determine how policies are rolled out."""
 
     choosing: SelectionSpec
-    h_hi: int | None = None  # most subgoals of an episode; the domain's horizon if None
-    repeat_penalty: float = 0.0  # taken off a subgoal's logit for each earlier choice of it in the same place
+    h_hi: int | None = None  # the most subgoals in an episode; the domain's horizon if None
+    repeat_penalty: float = 0.0  # subtracted from a subgoal's logit for each earlier choice of it in the same place
 
 
 def unique_place(_: Any) -> Hashable:
-    """Return a place that no other state shares: for domains that declare no places."""
+    """Return a place that no other state shares. Domains that declare no places use it."""
     return object()
 
 
@@ -66,14 +66,14 @@ class Behavior:
 
     choosing: SelectionSpec
     rng: np.random.Generator
-    h_hi: int  # most subgoals of an episode
+    h_hi: int  # the most subgoals in an episode
     epsilons: Mapping[PolicyKey, float] = field(default_factory=dict)  # the policies that choose epsilon-greedily
     terminations_given: bool = False  # whether the domain gives terminal(s; g) (Algorithm 3), instead of beta_g
-    repeat_penalty: float = 0.0  # taken off a subgoal's logit for each earlier choice of it in the same place
+    repeat_penalty: float = 0.0  # subtracted from a subgoal's logit for each earlier choice of it in the same place
     place: Callable[[Any], Hashable] = unique_place  # maps a state's JSON view to its place
 
     def choose(self, policy: PolicyKey, logits: NDArray[np.float32]) -> int:
-        """Choose by a policy's logits float32[n]: from their softmax at the temperature, or epsilon-greedily."""
+        """Return a choice given a policy's logits float32[n]: drawn from their softmax, or epsilon-greedy."""
         epsilon = self.epsilons.get(policy)
         if epsilon is None:
             return choose(logits, self.choosing, self.rng)
@@ -107,7 +107,7 @@ def execute_subgoal(
 ) -> Generator[Consult, tuple[NDArray[np.float32], float], Segment]:
     """Execute pi_g until the subgoal, H_LO or the episode ends; return the segment (s, g, tau).
 
-    beta_g is not consulted in the segment's first state: it would end the segment before its first action.
+    beta_g is not used in the segment's first state, because it could end the segment before its first action.
     """
     key, states, actions, rewards = pi(subgoal), [state], list[int](), list[float]()
     terminated, outcome = False, None
@@ -122,7 +122,7 @@ def execute_subgoal(
         if behavior.terminations_given:
             outcome = simulator.outcome(state, subgoal)
             if outcome is None and len(actions) == simulator.domain.horizons.lo:
-                outcome = "failed"  # otherwise going back and forth would cost a subpolicy nothing
+                outcome = "failed"  # otherwise a subpolicy could go back and forth without a failure
             terminated = outcome is not None
     return Segment(subgoal, tuple(states), tuple(actions), terminated, tuple(rewards), outcome, simulator.final)
 
@@ -153,12 +153,12 @@ def choose(logits: NDArray[np.float32], choosing: SelectionSpec, rng: np.random.
 def run_all(
     rollouts: Sequence[Rollout], policies: Policies, stepped: Callable[[PolicyKey], None] = lambda _: None
 ) -> list[Trajectory]:
-    """Run rollouts in parallel, so that each network evaluates the states that wait for it as one batch.
+    """Run rollouts in parallel, so that each network evaluates all states that wait for it as one batch.
 
     Args:
-        rollouts: which to run.
+        rollouts: the rollouts to run.
         policies: every policy that they consult.
-        stepped: called with a policy's key after each of its choices; a Q-function is updated there.
+        stepped: called with a policy's key after each of its choices; it can update a Q-function.
 
     Returns:
         the trajectories, in the order of `rollouts`.

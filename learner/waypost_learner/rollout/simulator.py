@@ -1,4 +1,4 @@
-"""A domain's environment that returns `State`s: the observation for networks, together with the view for experts."""
+"""A domain's environment that returns `State`s: observations for networks, and JSON views for experts."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -17,8 +17,8 @@ class Simulator:
     """A domain's environment, one instance at a time.
 
     Args:
-        domain: whose environment to run.
-        head_start: gives the actions to carry out after each reset; none if None.
+        domain: the domain; its environment runs.
+        head_start: returns the actions to carry out after each reset; no actions if None.
     """
 
     def __init__(self, domain: Domain, head_start: HeadStart | None = None) -> None:
@@ -32,7 +32,7 @@ class Simulator:
         self._env = domain.make_env()
 
     def reset(self, instance: Any) -> State:
-        """Start an instance and carry out the head start, whose steps are not counted. Return the start state."""
+        """Start an instance, carry out the head start without counting its steps, and return the start state."""
         observation, _ = self._env.reset(options={"instance": instance})
         self.instance, self.ended, self.final, self.steps = instance, False, False, 0
         state = State(observation, self.domain.state_view(self._env))
@@ -60,19 +60,19 @@ class Simulator:
 
     @property
     def succeeded(self) -> bool:
-        """Whether the task is accomplished in the present state."""
+        """Whether the task is accomplished in the current state."""
         return self.domain.succeeded(self._env)
 
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """The start state s of an episode, with everything else that fixes a rollout from it under given policies.
+    """The start state s of an episode. Together with the policies, it determines the rollout.
 
     Args:
         state: the start state.
         instance: the environment instance that starts there.
         draw: the episode's number among the run's draws of training instances; it seeds the choices.
-        simulator: the environment in which the rollout takes place; after it, in the rollout's last state.
+        simulator: the environment of the rollout; after the rollout, it is in the last state.
     """
 
     state: State

@@ -5,7 +5,7 @@ Tensors, where KEY is a policy's number (`PolicyKey.number`):
 - `policy.KEY.NAME`: the weights that act. A finished run's checkpoint has only these.
 - `optimizer.KEY.INDEX.NAME`, `rng.KEY`, `data.KEY.*`: the optimizer, the random generator, the buffer.
 - `due`: the policies that train while the expert answers the next query.
-- `trained.KEY.NAME`, `averaged.KEY`: if an average of the weights acts, the trained weights and the number averaged.
+- `trained.KEY.NAME`, `averaged.KEY`: if an average of the weights acts, the trained weights and the number of updates.
 - `target.KEY.NAME`, `counts.KEY`: a Q-function's target network, and its steps and updates.
 
 The file's metadata holds the `Header` as JSON. No code is stored, so loading a file runs none.
@@ -31,7 +31,7 @@ Tensors = dict[str, torch.Tensor]
 
 @dataclass(frozen=True)
 class Header:
-    """The run that a checkpoint belongs to, and how far it was."""
+    """The run that a checkpoint belongs to, and the run's progress."""
 
     run: str
     config: TrainConfig
@@ -42,10 +42,10 @@ def write(path: Path, learner: Learner, header: Header, weights_only: bool) -> N
     """Write a checkpoint to a temporary file, sync it, and rename it over the previous one.
 
     Args:
-        path: of the file; its folder is created if it does not exist.
-        learner: whose state to write.
+        path: the path of the file; its folder is created if it does not exist.
+        learner: the learner; its state is written.
         header: the run and its progress.
-        weights_only: whether to leave out what only further training needs.
+        weights_only: whether to omit everything that only further training needs.
     """
     tensors = dict(_weights(learner))
     if not weights_only:
@@ -69,7 +69,7 @@ def read_header(path: Path) -> Header:
     """Return the header of a checkpoint.
 
     Raises:
-        ValueError: there is no such file, or it is no checkpoint.
+        ValueError: the file does not exist, or it is not a checkpoint.
     """
     try:
         with safe_open(path, "pt") as file:
@@ -121,7 +121,7 @@ def _restore(tensors: Tensors, learner: Learner) -> None:
 
 
 def weights_hash(learner: Learner) -> str:
-    """Return the SHA-256 of all weights that act. It is equal if and only if the policies are, bit for bit."""
+    """Return the SHA-256 of all weights that act. Two hashes are equal if and only if all weights are identical."""
     digest = hashlib.sha256()
     for name, tensor in sorted(_weights(learner)):
         digest.update(name.encode())

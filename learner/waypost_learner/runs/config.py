@@ -1,4 +1,4 @@
-"""The configuration that fixes a run, and how far a run is.
+"""Defines the configuration of a run, and its progress.
 
 With the answers to its queries, a configuration determines every query and every weight of a run.
 """
@@ -19,7 +19,7 @@ class TrainConfig:
     episodes: int = 1_000
     in_flight: int = 1  # episodes open at the same time; 1 is the paper's loop
     warm_start: int | None = None  # episodes of demonstrations; the preset's number if None
-    redraw: bool = False  # draw training instances until one fails, as the authors count episodes
+    redraw: bool = False  # draw instances until the learner fails on one, as the authors count episodes
     head_start: float | None = None  # share of an optimal trajectory that is carried out before the learner begins
     values: str | None = None  # values that replace the preset's: "relabeling=false train_hi.batch=32"
 
@@ -31,11 +31,11 @@ def config_values(config: TrainConfig) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a run is, between two episodes."""
+    """The progress of a run between two episodes."""
 
-    episodes: int = 0  # applied
-    draws: int = 0  # training instances drawn; with `redraw`, more than episodes
-    passes: int = 0  # whole-episode inspections that passed in a row
+    episodes: int = 0  # the number of applied episodes
+    draws: int = 0  # the number of drawn training instances; with `redraw`, more than episodes
+    passes: int = 0  # the number of whole-episode inspections that passed in a row
 
 
 START = Progress()

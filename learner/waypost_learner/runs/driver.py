@@ -1,9 +1,9 @@
 """The outer loop of the algorithms: draw an instance, ask the episode's queries, learn from its labels, test.
 
 Several episodes may be open at once (`in_flight`). Their results are applied in episode order, and episode t + K starts
-right after episode t was applied. So a run is a function of its configuration and the answers, whatever order and speed
-the answers have. This also holds for training while the expert is busy: its amount is fixed, and it ends before the
-policies act again. A query is identified by its episode and ordinal, so a learner that is started again asks the same
+right after episode t was applied. So a run is a function of its configuration and the answers; the order and the speed
+of the answers do not matter. This also holds for training while the expert answers: its amount is fixed, and it ends
+before the policies act again. A query is identified by its episode and ordinal, so a restarted learner asks the same
 queries and pays for each only once.
 """
 
@@ -34,17 +34,17 @@ CHECKPOINT_EVERY = 25  # episodes
 
 Withdraw = Callable[[], None]
 Offer = Callable[[int, Translator], Withdraw]
-"""Offers the environment of a demonstration, given by the query's id, to people; returns how to withdraw the offer."""
+"""Offers the environment of the demonstration with this query id to people; returns a function that withdraws it."""
 
 
 @dataclass(frozen=True)
 class Hooks:
-    """What a driver calls. Each hook does nothing unless it is given.
+    """The functions that a driver calls. A hook that is not given does nothing.
 
     Args:
-        let_answer: called when queries may be open; an expert in this process answers them there.
+        let_answer: called when queries may be open; an expert in this process then answers them.
         on_episode: called with each episode's result and the units that its answers cost.
-        checkpoint: called with the progress whenever the run could be resumed from it.
+        checkpoint: called with the progress whenever the run can be resumed from this point.
         offer: called with each demonstration that is not answered at once, so that people can play it.
     """
 
@@ -67,7 +67,7 @@ class OpenEpisode:
     ordinal: int = 0  # of the next query
     pending: int | None = None  # the query whose answer it waits for
     units: float = 0  # the cost of its answers
-    labels: Labels | None = None  # what it taught, once it has ended
+    labels: Labels | None = None  # its labels, once it has ended
     withdraw: Withdraw = lambda: None  # withdraws the offer of its environment
 
     def resume(self, resume: Callable[[], Query]) -> Query | None:
@@ -83,10 +83,10 @@ class Driver:
     """Trains one run.
 
     Args:
-        setup: what fixes the run.
+        setup: the configuration, and the objects that it names.
         queue: the run's queries.
-        hooks: what to call.
-        first: where to continue, after a checkpoint was loaded.
+        hooks: the functions to call.
+        first: the progress to continue from, after a checkpoint was loaded.
     """
 
     def __init__(self, setup: Setup, queue: RunQueue, hooks: Hooks | None = None, first: Progress = START) -> None:
@@ -94,7 +94,7 @@ class Driver:
         self._instances = Instances(setup.instances, setup.config.seed)
         self._queue, self._hooks = queue, hooks or Hooks()
         self._test_simulator = setup.learner.make_simulator()
-        # Checkpoints of Q-functions are large because of their experience, and their episodes are short.
+        # Checkpoints of Q-functions contain the replay buffers, so they are large; and their episodes are short.
         self._checkpoint_every = CHECKPOINT_EVERY * (20 if setup.algorithm.levels.reinforced else 1)
         self._open: deque[OpenEpisode] = deque()
         self._next = self._applied = first.episodes
@@ -104,14 +104,14 @@ class Driver:
 
     @property
     def progress(self) -> Progress:
-        """How far the run is."""
+        """The run's progress."""
         return Progress(self._applied, self._draws, self._passes)
 
     def train(self) -> None:
         """Train to the last episode.
 
         Raises:
-            BudgetExhausted: the budget ended first.
+            BudgetExhausted: the budget was exhausted first.
             Refused: the server refused for another reason; for example, somebody finished the run.
         """
         try:
@@ -131,7 +131,7 @@ class Driver:
     def _may_start(self) -> bool:
         """Return whether the next episode may start.
 
-        No episode is open at a checkpoint: a resumed run could not repeat its rollout, which used older weights.
+        No episode may be open at a checkpoint: its rollout used older weights, so a resumed run could not repeat it.
         """
         if self._next % self._checkpoint_every == 0 and self._open:
             return False
@@ -161,7 +161,7 @@ class Driver:
         return self._algorithm.episode if inspects else uninspected
 
     def _ask(self, episode: OpenEpisode, query: Query | None) -> None:
-        """Ask an episode's query, and its next ones as long as answers are there immediately."""
+        """Ask an episode's query. While the answer is available immediately, ask the next query."""
         while query is not None:
             translator = episode.translator
             ask = translator.ask(query, episode.number, episode.ordinal)

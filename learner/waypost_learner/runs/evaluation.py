@@ -40,10 +40,10 @@ def attempt(learner: Learner, instances: Sequence[Any], stream: int, numbers: Se
     """Roll out on each instance and return which rollouts succeed.
 
     Args:
-        learner: whose present policies to roll out.
-        instances: where to start.
+        learner: the learner; its current policies are rolled out.
+        instances: the instances to start from.
         stream: the stream of randomness.
-        numbers: of the rollouts in the stream, one per instance.
+        numbers: the numbers of the rollouts in the stream, one per instance.
     """
     simulators = [learner.make_simulator() for _ in instances]
     rollouts = [
@@ -59,12 +59,12 @@ def evaluate_run(path: Path, instances: str | None, episodes: int, threads: int 
 
     Args:
         path: the checkpoint.
-        instances: a name of instances, or a file; the run's own if None.
-        episodes: how many; 0 for one on each instance.
+        instances: a name of instances, or a file; the run's own instances if None.
+        episodes: the number of episodes; 0 for one on each instance.
         threads: CPU threads; one per core if None.
 
     Raises:
-        ValueError: there is no such checkpoint, or there are no such instances.
+        ValueError: the checkpoint or the instances do not exist.
     """
     header = checkpoints.read_header(path)
     learner = build_learner(header.config, threads)

@@ -1,4 +1,4 @@
-"""Which instance each episode of a run trains and tests on, fixed by the run's seed."""
+"""Determines the training and the test instance of each episode of a run, from the run's seed."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -37,9 +37,9 @@ class Instances:
         return self._pick(self._sets.test, streams.TEST_ORDER, episode)
 
     def failing_draw(self, learner: Learner, first: int) -> int:
-        """Return the first draw from `first` on, on whose training instance the present policies fail.
+        """Return the first draw, from `first` on, on whose training instance the current policies fail.
 
-        Rollouts run in batches that grow while none fails. If none of at least 250 fails, return `first`.
+        Rollouts run in batches that grow while no rollout fails. If at least 250 rollouts succeed, return `first`.
         """
         draw, size = first, 2
         while draw < first + _MOST_DRAWS:
@@ -52,6 +52,6 @@ class Instances:
         return first
 
     def _pick(self, instances: Sequence[Any], stream: int, number: int) -> Any:
-        """Return an instance: all in random order, then all again in another random order."""
+        """Return an instance. Successive numbers give all instances in random order, then again in another order."""
         lap, place = divmod(number, len(instances))
         return instances[np.random.default_rng([self._seed, stream, lap]).permutation(len(instances))[place]]

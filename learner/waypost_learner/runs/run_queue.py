@@ -1,4 +1,4 @@
-"""One run's queries at a server: ask them, use their answers, wait for answers, report episodes."""
+"""The queries of one run at a server: ask them, wait for answers, use answers, and report episodes."""
 
 from collections.abc import Mapping
 
@@ -16,9 +16,9 @@ class RunQueue:
     """The queries of one run.
 
     Args:
-        client: of the learner.
-        run: the run's id; the run exists.
-        pictures: whether queries carry pictures of their states, if the domain has pictures. People need them.
+        client: the learner's client.
+        run: the id of an existing run.
+        pictures: whether queries contain pictures of their states, if the domain has pictures. People need them.
     """
 
     def __init__(self, client: Client, run: str, pictures: bool = False) -> None:
@@ -30,7 +30,7 @@ class RunQueue:
 
         Args:
             ask: the query.
-            frames: PNG files by hash, which it refers to and the server may not have.
+            frames: PNG files by hash: pictures in the query that the server may not have yet.
 
         Raises:
             BudgetExhausted: the run's budget cannot pay for it.

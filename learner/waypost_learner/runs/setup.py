@@ -1,4 +1,4 @@
-"""Build everything that a configuration names, and refuse configurations that contradict themselves."""
+"""Build everything that a configuration names, and refuse contradictory configurations."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ from waypost_learner.runs.useless_values import refuse_useless_values
 
 @dataclass(frozen=True)
 class Setup:
-    """What fixes a run."""
+    """The configuration of a run, and the objects that it names."""
 
     config: TrainConfig
     algorithm: Algorithm
@@ -22,15 +22,15 @@ class Setup:
 
 
 def set_up(config: TrainConfig, threads: int | None) -> Setup:
-    """Return what a configuration names, built for a new run.
+    """Build everything that a configuration names, for a new run.
 
     Args:
         config: the run's configuration.
         threads: CPU threads to train with; one per core if None.
 
     Raises:
-        ValueError: a name does not exist, a file is no set of instances, or an option or value contradicts another or
-            has no effect; the message says what to write instead.
+        ValueError: a name does not exist, a file does not contain instances, or an option or value contradicts another
+            or has no effect; the message says what to write instead.
     """
     algorithm = find_algorithm(config.algorithm)
     if config.redraw and not algorithm.interactive:
@@ -38,17 +38,17 @@ def set_up(config: TrainConfig, threads: int | None) -> Setup:
     if config.warm_start is not None and not algorithm.interactive:
         raise ValueError(f"{config.algorithm} has no warm start: leave out --warm-start")
     if config.head_start is not None and not algorithm.levels.reinforced:
-        raise ValueError(f"{config.algorithm} learns from an expert alone: leave out --head-start")
+        raise ValueError(f"{config.algorithm} learns only from an expert: leave out --head-start")
     learner = build_learner(config, threads)
     if learner.preset.monitoring.share < 1 and (config.redraw or not algorithm.monitored):
         monitored = ", ".join(name for name, one in ALGORITHMS.items() if one.monitored)
-        raise ValueError(f"monitoring.share below 1 is for {monitored}, without --redraw")
+        raise ValueError(f"monitoring.share below 1 works only with {monitored}, and without --redraw")
     refuse_useless_values(config, algorithm, learner)
     return Setup(config, algorithm, learner, learner.domain.instances(config.instances))
 
 
 def build_learner(config: TrainConfig, threads: int | None) -> Learner:
-    """Return a new learner of a configuration, which a finished run may have had.
+    """Return a new learner for a configuration. Unlike `set_up`, accept values without effect, as old runs may have.
 
     Raises:
         ValueError: a name does not exist, or the preset's values contradict each other.

@@ -12,11 +12,11 @@ def finish(setup: Setup, client: Client, run: str, ended: str, seconds: float) -
     """Finish a run at the server, and return its summary.
 
     Args:
-        setup: what fixed the run.
-        client: of the learner.
+        setup: the run's configuration and learner.
+        client: the learner's client.
         run: the run's id.
         ended: why the run ended, in words.
-        seconds: how long it took.
+        seconds: the wall time of the run in this process.
     """
     config, costs, state = setup.config, client.costs(run), client.run(run)
     summary: dict[str, Any] = {

@@ -12,8 +12,8 @@ class Tracker:
     """Writes the results of episodes as events. Use it as a context manager.
 
     Args:
-        folder: of this run's events.
-        first: the first episode of this process; earlier events of it and of later episodes are dropped.
+        folder: the folder of this run's events.
+        first: the first episode of this process; existing events of this and of later episodes are deleted.
     """
 
     def __init__(self, folder: Path, first: int) -> None:

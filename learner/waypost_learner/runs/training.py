@@ -1,4 +1,4 @@
-"""`waypost train`: create or resume a run, train it to its end, and keep its checkpoints and events."""
+"""`waypost train`: create or resume a run, train it to its end, and write its checkpoints and events."""
 
 import time
 from collections.abc import Callable
@@ -45,9 +45,9 @@ def train(
     """Train a run to its end and return its summary.
 
     Args:
-        config: what fixes the run.
-        connection: the server, as a learner and perhaps as an expert.
-        options: what does not change the result.
+        config: the run's configuration.
+        connection: the connection to the server, for the learner and perhaps for an expert in this process.
+        options: the options that do not change what is learned.
         on_start: called with the run and the number of its first episode in this process.
         on_episode: called with each episode's result and the units that its answers cost.
 
@@ -130,18 +130,18 @@ def _load_checkpoint(path: Path, learner: Learner) -> Progress:
 
 
 def _expert_here(connection: Connection, run: str) -> Callable[[], None]:
-    """Return what lets an expert in this process answer the open queries; it does nothing if others answer."""
+    """Return a function that lets an expert in this process answer open queries. If others answer, it does nothing."""
     if connection.annotator is None:
         return lambda: None
     for assignment in connection.annotator.assignments():
-        if assignment.run.id == run:  # of an expert that was killed together with its learner
+        if assignment.run.id == run:  # held by an expert that was killed together with its learner
             connection.annotator.release(assignment)
     bot = Bot(connection.annotator, BotSettings(run=run))
     return lambda: bot.work(wait=0)
 
 
 def _offer_to_people(connection: Connection) -> Offer:
-    """Return what offers demonstrations to people; it does nothing if an expert in this process gives them."""
+    """Return a function that offers demonstrations to people. If an expert in this process answers, it does nothing."""
     if connection.annotator is not None:
         return lambda _query, _translator: lambda: None
     client = connection.learner

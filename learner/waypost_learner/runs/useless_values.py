@@ -14,11 +14,11 @@ from waypost_learner.runs.config import TrainConfig
 _SWITCHES = frozenset(
     {"h_hi", "planning", "relabeling", "repeat_penalty", "symmetries", "tied", "views", "monitoring.share"}
 )
-"""Values that may be set to off, false, 0 or null, also where being on has no effect."""
+"""Values that may be set to false, 0 or null even if they have no effect."""
 
 
 def refuse_useless_values(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> None:
-    """Refuse `--values` that have no effect under an algorithm, a domain and the other values.
+    """Refuse `--values` that have no effect with this algorithm, this domain and the other values.
 
     Raises:
         ValueError: a value has no effect; the message says why.

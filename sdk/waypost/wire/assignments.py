@@ -41,7 +41,7 @@ class Lease(Message):
         ge=0,
         le=3_600,
         allow_inf_nan=False,
-        description="Skip a query in its first seconds (this many) if another working annotator takes its kind. "
+        description="How long to leave new queries to other working annotators who take their kind, in seconds. "
         "Only bots that help people need this.",
     )
     ahead: bool = Field(

@@ -30,7 +30,7 @@ class Segment(Message):
 
     subgoal: Name | None = Field(description="The learner's subgoal; null for a flat policy.")
     states: list[JsonValue] = Field(max_length=10_000, description="s_1 .. s_{H+1}, as JSON views of the domain.")
-    actions: list[Name] = Field(max_length=10_000, description="a_1 .. a_H, one less than the states.")
+    actions: list[Name] = Field(max_length=10_000, description="a_1 .. a_H, one fewer than the states.")
     frames: list[FrameHash] = Field(
         default_factory=list,
         max_length=10_000,

@@ -181,7 +181,7 @@ def test_the_command_refuses_a_figure_that_does_not_exist(tmp_path: Path) -> Non
 def test_the_command_lists_algorithms_domains_and_presets_that_exist(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["sweep", "--preset", "no-such", "--store", str(tmp_path / "a.db")])
     assert done.exit_code == 2
-    assert "those that exist are:" in done.output
+    assert "the presets are:" in done.output
     assert list(tmp_path.iterdir()) == []
 
 

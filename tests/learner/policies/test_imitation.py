@@ -214,7 +214,7 @@ def test_policies_train_idle_by_the_rows_of_their_preset(idle: int) -> None:
     [{"batch": 0}, {"most": 0}, {"least": -1}, {"passes": -1}, {"idle": -1}, {"averaging": 1.0}, {"averaging": -0.1}],
 )
 def test_numbers_with_which_nothing_could_be_trained_are_refused(number: dict[str, Any]) -> None:
-    with pytest.raises(ValueError, match="training takes"):
+    with pytest.raises(ValueError, match="training needs"):
         TrainSpec(**number)
 
 

@@ -47,7 +47,7 @@ def test_algorithm_2_inspects_every_episode(passes: int, seed: int) -> None:
 
 @pytest.mark.parametrize("values", ["share=1.5", "share=-0.1", "rate=1.0", "rate=0.0", "confidence=1.0"])
 def test_what_is_no_share_and_no_rate_is_refused(values: str) -> None:
-    with pytest.raises(ValueError, match="monitoring takes a share from 0 to 1"):
+    with pytest.raises(ValueError, match="monitoring needs a share from 0 to 1"):
         find_preset("lean", f"monitoring.{values}")
 
 
@@ -56,7 +56,7 @@ def test_what_is_no_share_and_no_rate_is_refused(values: str) -> None:
     [{"algorithm": one} for one in ("h-bc", "naive-h-dagger", "hg-dagger-q", "flat-bc", "h-dqn")] + [{"redraw": True}],
 )
 def test_monitoring_is_refused_where_nothing_is_monitored(values: dict[str, Any]) -> None:
-    with pytest.raises(ValueError, match="is for hg-dagger, hg-stagger, flat-dagger, without"):
+    with pytest.raises(ValueError, match="works only with hg-dagger, hg-stagger, flat-dagger, and"):
         set_up(corridor(values="monitoring.share=0.5", **values), threads=1)
 
 

@@ -65,8 +65,8 @@ def test_without_views_nothing_is_planned() -> None:
 @pytest.mark.parametrize(
     ("values", "said"),
     [
-        ("relabelling=false", r"no value 'relabelling'; those that exist are: .*relabeling"),
-        ("train_hi.batches=3", r"no value 'batches'; those that exist are: .*batch"),
+        ("relabelling=false", r"no value 'relabelling'; the values are: .*relabeling"),
+        ("train_hi.batches=3", r"no value 'batches'; the values are: .*batch"),
         ("relabeling", r"'' is no value for 'relabeling': write relabeling=VALUE, a JSON value such as false"),
         ("relabeling=no", r"'no' is no value for 'relabeling'"),
         ("relabeling=1", r"'1' is no value for 'relabeling'"),

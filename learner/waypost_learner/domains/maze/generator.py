@@ -73,7 +73,8 @@ def with_doors_redrawn(maze: Maze, rng: np.random.Generator) -> Maze:
 def _opened_walls(start: Cells, goal: Cells, rng: np.random.Generator) -> NDArray[np.bool_]:
     """Open walls in random order until start and goal are connected, and return bool[draws, 24]: which walls are open.
 
-    Compute for each two rooms when they become connected: a minimax path problem, solved as by Floyd and Warshall.
+    For each pair of rooms, compute when they become connected. This is a minimax path problem, which the
+    Floyd-Warshall algorithm solves.
     """
     times = rng.random((DRAWS, len(_WALL_ROOMS)), np.float32)  # the time at which each wall opens: a random order
     connected = np.full((DRAWS, ROOMS**2, ROOMS**2), 2, np.float32)  # the time at which two rooms become connected

@@ -1,4 +1,4 @@
-"""Derives labels and segments of other tasks on the same path from the labels and demonstrations of a maze.
+"""Derives more training data from labels and demonstrations in a maze: labels of other tasks on the same path.
 
 Relabeling is not part of the paper, and the `paper` preset does not use it. It assumes that paths are reversible and
 that parts of shortest paths are shortest paths.
@@ -37,8 +37,8 @@ def relabeled(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Itera
 def retraced(demonstration: Trajectory) -> Iterator[Segment]:
     """Yield segments of other tasks: the way back, room by room, and the way to each cell as if it were the target.
 
-    A cell is used as a target from where the path enters its room, in both directions. The trail in the observations
-    contains the path up to the current cell.
+    The segment to a cell begins where the path enters the cell's room. The path is used in both directions. The trail
+    in the observations contains the path up to the current cell.
     """
     lava = demonstration[0].start.observation[1] == LAVA
     forward = [cell_of(demonstration[0].start.view)]

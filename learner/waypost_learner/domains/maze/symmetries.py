@@ -1,4 +1,4 @@
-"""Defines the eight rotations and reflections of a maze, and their effect on subgoals and actions."""
+"""Defines the rotations and reflections of a maze, and their effect on subgoals and actions."""
 
 import numpy as np
 from numpy.typing import NDArray

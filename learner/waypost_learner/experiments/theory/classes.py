@@ -41,8 +41,8 @@ class Classes:
 def draw_classes(cell: Cell, rng: np.random.Generator) -> Classes:
     """Draw M, Pi_LO and the expert's policies from them.
 
-    Each position has two possible subgoals and two possible actions, chosen like fair coins. So when the majority
-    errs, about half of the class errs: a mistake teaches about as little as the analysis allows.
+    At each position, a policy takes one of two possible choices with equal probability. So when the majority errs,
+    about half of the class errs: a mistake removes about as few policies as the analysis allows.
     """
     possible = np.array([rng.choice(cell.n_subgoals, 2, replace=False) for _ in range(N_POSITIONS)])
     mu = possible[np.arange(N_POSITIONS), rng.integers(2, size=(cell.n_mu, N_POSITIONS))]
