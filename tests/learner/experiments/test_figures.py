@@ -31,7 +31,8 @@ from waypost_learner.cli import app
 from waypost_learner.experiments import plan
 from waypost_learner.experiments.figures import archive, look, make, tables
 from waypost_learner.experiments.figures.data import KINDS
-from waypost_learner.experiments.figures.store import read, stored
+from waypost_learner.experiments.figures.store import read
+from waypost_learner.remote.embedded import stored_runs
 from waypost_learner.runs.config import TrainConfig
 from waypost_learner.runs.training import train
 from waypost_server import serving
@@ -195,7 +196,7 @@ def test_of_several_runs_of_one_configuration_the_newest_of_those_that_got_furth
     with store(Path.cwd()) as (connection, _):
         for episodes, hi_labels in ((3, 1), (5, 2), (5, 3), (4, 4)):
             begin(connection.learner, config, episodes, hi_labels)
-    with stored(Path("waypost.db")) as source:
+    with stored_runs(Path("waypost.db")) as source:
         found = read(source, [config])
     assert list(found[config].hi_labels) == [3] * 5
 

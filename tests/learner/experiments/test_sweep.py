@@ -37,7 +37,7 @@ SCRIPT = """
 import sys
 from pathlib import Path
 from learner.experiments.sweep import Place, sweep
-from tests.learner.test_sweep import RUNS
+from tests.learner.experiments.test_sweep import RUNS
 
 if __name__ == "__main__":
     store = Path(sys.argv[1])
@@ -47,7 +47,7 @@ RAY_SCRIPT = """
 import sys
 from pathlib import Path
 from learner.experiments.sweep import Place, sweep
-from tests.learner.test_sweep import RUNS
+from tests.learner.experiments.test_sweep import RUNS
 
 if __name__ == "__main__":
     place = Place(Path(sys.argv[1]), server=sys.argv[2], token=sys.argv[3])

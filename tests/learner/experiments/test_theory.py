@@ -39,7 +39,7 @@ from waypost_learner.experiments.theory.simulation import Episodes, HalvingLearn
 from waypost_learner.experiments.theory.task import Task, observed
 from waypost_learner.policies.datasets import Row
 from waypost_learner.policies.labels import Labels
-from waypost_learner.rollout.policy_keys import FLAT, META
+from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
 
 SMALL = (Cell(2, 2, 8, 4, 2), Cell(3, 2, 5, 3, 3))
 SEEDS = st.integers(0, 2**32)
@@ -143,11 +143,11 @@ def test_the_bounds_follow_the_prices_of_the_run() -> None:
 # --- the halving algorithm
 
 
-def taught(space: VersionSpace, classes: Classes, places: list[tuple[int, int]], key: int) -> None:
+def taught(space: VersionSpace, classes: Classes, places: list[tuple[int, int]], key: PolicyKey) -> None:
     """Let a version space learn the expert's choices in states (u, x), and hold each step against the algorithm."""
     for u, x in places:
         wanted = classes.pi_star[classes.mu_star[u], x] if key == FLAT else classes.mu_star[x]
-        wanted = classes.pi_star[key, x] if key >= 0 else wanted
+        wanted = classes.pi_star[key.subgoal, x] if key.subgoal is not None else wanted
         observation, before = observed([u, x, 0]).observation, (space.size, space.mistakes)
         erred = space.choose(observation) != wanted
         space.learn([Row(observation, int(wanted))])
@@ -167,7 +167,7 @@ def test_a_mistake_halves_the_version_space_and_never_removes_the_expert(
     classes, *_ = drawn(cell, seed)
     mu, pi, full = Simple(classes.mu, cell.n_subgoals), Simple(classes.pi, N_ACTIONS), Product(classes)
     taught(mu, classes, places, META)
-    taught(pi, classes, places, 0)
+    taught(pi, classes, places, PolicyKey("lo", 0))
     taught(full, classes, places, FLAT)
     assert (mu.tables[mu.left] == classes.mu_star).all(axis=1).any()
     assert (pi.tables[pi.left] == classes.pi_star[0]).all(axis=1).any()
