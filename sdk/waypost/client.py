@@ -1,7 +1,7 @@
 """The client of the REST API (`/api/v1`): one method per call, for learners and for annotator programs.
 
-A call without a reply is repeated until `patience` is over. Asking, answering, using and reporting are idempotent on
-the server, so a repeated call has no second effect, even if the server was killed and restarted.
+A call that gets no reply, or status 429, 502, 503 or 504, is repeated until `patience` is over. On the server, asking,
+answering, using and reporting are idempotent, so repeating them changes nothing, even after a restart of the server.
 """
 
 import base64
@@ -41,7 +41,7 @@ class Refused(Exception):
 
 
 class Unreachable(Exception):
-    """The server did not reply within `patience`."""
+    """The server was not available within `patience`."""
 
 
 class Client:
@@ -51,7 +51,7 @@ class Client:
         server: the server's base URL, such as http://127.0.0.1:8000.
         token: an API token.
         transport: replaces the network, for example with an app in the same process.
-        patience: how long to repeat a call without a reply, in seconds.
+        patience: how long to repeat a call when the server is not available, in seconds.
     """
 
     def __init__(
@@ -81,7 +81,7 @@ class Client:
         return self._call(wire.Run, "POST", "/runs", run)
 
     def runs(self) -> list[wire.Run]:
-        """Return the newest runs, at most a thousand, newest first."""
+        """Return at most a thousand runs, newest first."""
         return self._call(wire.RunList, "GET", "/runs", params={"limit": 1_000}).runs
 
     def run(self, run: str) -> wire.Run:
@@ -89,7 +89,7 @@ class Client:
         return self._call(wire.Run, "GET", f"/runs/{run}")
 
     def patch_run(self, run: str, patch: wire.RunPatch) -> wire.Run:
-        """Pause, resume or finish a run, set its budget or its result."""
+        """Change the name, state, budget, priority, gold rate or result of a run."""
         return self._call(wire.Run, "PATCH", f"/runs/{run}", patch)
 
     def upload(self, frames: Mapping[str, bytes]) -> None:
@@ -122,7 +122,7 @@ class Client:
         """Open the play socket of a demonstration.
 
         Raises:
-            OSError, WebSocketException: there is no server, or it refuses the connection.
+            OSError, WebSocketException: the server cannot be reached, or refuses the connection.
         """
         server = str(self._http.base_url).removeprefix("http")
         return connect(
@@ -162,12 +162,12 @@ class Client:
     def answer(
         self, assignment: wire.Assignment, answer: wire.Answer, following: wire.Lease | None = None
     ) -> wire.Receipt:
-        """Answer. With `following`, the receipt has the next assignment, if there is one."""
+        """Answer a query. With `following`, the receipt has the next assignment, if there is one."""
         post = wire.AnswerPost(token=assignment.token, answer=answer, next=following)
         return self._call(wire.Receipt, "POST", f"/assignments/{assignment.id}/answer", post)
 
     def release(self, assignment: wire.Assignment, reason: str = "", skip: bool = False) -> None:
-        """Give a query back without an answer. With `skip`, it is not offered to this user again."""
+        """Return a query to the queue without an answer. With `skip`, this user does not get it again."""
         self._send(
             "POST",
             f"/assignments/{assignment.id}/release",
@@ -201,7 +201,7 @@ class Client:
 
 
 def _batches(hashes: Sequence[str], frames: Mapping[str, bytes]) -> Iterator[list[wire.Frame]]:
-    """Yield batches of frames that each fit a request body."""
+    """Yield batches of frames; each batch fits into one request body."""
     batch, size = list[wire.Frame](), 0
     for one in hashes:
         png = base64.b64encode(frames[one]).decode()

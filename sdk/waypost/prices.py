@@ -1,7 +1,7 @@
-"""The cost model: what an answer costs, and the most that an answer to a query can cost.
+"""The cost model: the cost of an answer, and the maximum cost of an answer to a query.
 
-The server applies it, and nobody else charges. The paper's model is the default (Le et al. 2018, section 3): a label
-costs the length of what it labels, an inspection costs 1. Amounts are whole micro-units, so that sums are exact.
+Only the server charges answers. The default prices are the paper's (Le et al. 2018, section 3): every subgoal, action,
+termination and inspection costs 1. Amounts are whole micro-units, so that sums are exact.
 """
 
 from collections.abc import Sequence
@@ -47,7 +47,7 @@ def cost(answer: wire.Answer, prices: wire.Prices) -> Cost:
 
 
 def highest_cost(ask: wire.Ask, prices: wire.Prices) -> Cost:
-    """Return the most that an answer to a query can cost. Only the cost of a demonstration depends on the answer."""
+    """Return the maximum cost of an answer to a query. Only the cost of a demonstration depends on the answer."""
     match ask:
         case wire.AskHierDemo():
             # Every segment has an action, so there are at most as many segments as actions.
@@ -64,7 +64,7 @@ def highest_cost(ask: wire.Ask, prices: wire.Prices) -> Cost:
 
 
 def price(ask: wire.Ask, prices: wire.Prices) -> wire.Price:
-    """Return the price of a query as an annotator is told it."""
+    """Return the price of a query in the form that annotators get."""
     if not isinstance(ask, wire.AskHierDemo):
         return wire.Price(fixed=to_units(highest_cost(ask, prices).units), per_action=0, per_segment=0)
     per_segment = 0 if ask.flat else _hier_demo(1, 0, prices).units
@@ -72,7 +72,7 @@ def price(ask: wire.Ask, prices: wire.Prices) -> wire.Price:
 
 
 def _hier_demo(n_subgoals: int, n_actions: int, prices: wire.Prices) -> Cost:
-    """A demonstration yields the labels of h-BC (Algorithm 1): subgoals, actions, and a termination per subgoal."""
+    """Price the labels that h-BC (Algorithm 1) learns from: subgoals, actions, and a termination per subgoal."""
     lo = n_actions * to_micro(prices.action) + n_subgoals * to_micro(prices.termination)
     return Cost(n_subgoals * to_micro(prices.subgoal) + lo, lo)
 
@@ -86,7 +86,7 @@ def _label_hi(n_subgoals: int, prices: wire.Prices) -> Cost:
 
 
 def _label_lo(n_actions: int, prices: wire.Prices) -> Cost:
-    """Label_LO costs H + 1: the action of each state and the termination of the last."""
+    """Price Label_LO: the action of each state, and the termination of the last state (H + 1 labels)."""
     units = n_actions * to_micro(prices.action) + to_micro(prices.termination)
     return Cost(units, units)
 

@@ -43,7 +43,7 @@ def refuse(message: str) -> NoReturn:
 
 @contextmanager
 def opened(url: str) -> Iterator[Database]:
-    """Open a store for one command; errors end the command with one sentence."""
+    """Open a store for one command; an error ends the command with a message of one sentence."""
     try:
         db = Database(url)
     except (BadDatabase, NewerStore) as error:
@@ -151,14 +151,14 @@ def list_users(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption 
 
 @user_app.command("role")
 def set_role(name: str, role: str, database: DatabaseOption = DEFAULT_DATABASE) -> None:
-    """Give a user another role."""
+    """Change the role of a user."""
     _check_role(role)
     _change(database, name, wire.UserPatch.model_validate({"role": role}))
 
 
 @user_app.command("deactivate")
 def deactivate_user(name: str, database: DatabaseOption = DEFAULT_DATABASE) -> None:
-    """Deactivate a user: sessions, tokens, login links and leases end immediately. Answers stay."""
+    """Deactivate a user: revoke sessions, tokens and login links, and release leases. Answers stay."""
     _change(database, name, wire.UserPatch(active=False))
 
 
@@ -177,7 +177,7 @@ def _change(database: str, name: str, wanted: wire.UserPatch) -> None:
 @token_app.command("create")
 def create_token(
     user: str,
-    label: Annotated[str, typer.Option(help="What the token is for.")] = "",
+    label: Annotated[str, typer.Option(help="The purpose of the token.")] = "",
     database: DatabaseOption = DEFAULT_DATABASE,
     as_json: JsonOption = False,
 ) -> None:

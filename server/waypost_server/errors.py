@@ -9,29 +9,29 @@ Refusal
 ├── Forbidden              403  the role may not do this
 │   ├── NotYours           403  another annotator's assignment
 │   ├── WrongToken         403  not the token of this lease
-│   └── CrossSite          403  a cookie used from a foreign page
-├── NotFound               404
-├── BodyTooSlow            408
+│   └── CrossSite          403  a session cookie came from another site
+├── NotFound               404  the object does not exist
+├── BodyTooSlow            408  the body did not arrive in time
 ├── Conflict               409  the state of the store does not allow the request
 │   ├── DifferentContent        the same key came with other content
-│   ├── KeyReused               an Idempotency-Key was used for something else
+│   ├── KeyReused               an Idempotency-Key came before with another answer
 │   ├── LeaseExpired            the answer came too late
 │   ├── LeaseEnded              the assignment was released, skipped or answered before
 │   ├── QueryCancelled          the run ended before the answer came
-│   ├── AnswerUsed              the learner has trained on the answer
+│   ├── AnswerUsed              the learner has used the answer
 │   ├── AnswerRetracted         the answer was retracted
-│   ├── NotAnswered             there is no answer to use
-│   ├── NotPlayable             no open demonstration to play
+│   ├── NotAnswered             the query has no answer at present
+│   ├── NotPlayable             the query is not an open demonstration
 │   ├── Displaced               a newer connection to the play socket replaced this one
 │   ├── RunFinished             a finished run does not allow this
-│   ├── BudgetTooLow            a budget below what is spent and reserved
+│   ├── BudgetTooLow            a budget below the units spent and reserved
 │   ├── NameTaken               a user with this name exists
 │   ├── NotActive               a deactivated user gets no login links or tokens
 │   └── LastAdministrator       no active administrator would be left
-├── BodyTooLarge           413
-├── NotJson                415
+├── BodyTooLarge           413  the body is larger than the server accepts
+├── NotJson                415  the body is not declared as JSON
 ├── Misdirected            421  a Host name that this server does not serve
-├── Unprocessable          422  valid JSON, but a field is invalid; names the field
+├── Unprocessable          422  valid JSON, but a field is invalid; the refusal names the field
 ├── TooManyQueries         429  the run has too many open queries
 ├── TooManyAttempts        429  too many wrong login codes
 ├── TooManyMessages        429  too many messages on a play socket
@@ -137,7 +137,7 @@ class DifferentContent(Conflict):
 
 
 class KeyReused(Conflict):
-    """An Idempotency-Key was used before for something else."""
+    """The same Idempotency-Key came before with another answer."""
 
     name, title = "idempotency-key-reused", "Idempotency-Key already used"
 
@@ -209,7 +209,7 @@ class NameTaken(Conflict):
 
 
 class NotActive(Conflict):
-    """The user is deactivated, so they get no login link and no token."""
+    """The user is deactivated and cannot get a login link or a token."""
 
     name, title = "not-active", "The user is deactivated"
 
@@ -249,7 +249,7 @@ class Unprocessable(Refusal):
 
 
 class TooManyQueries(Refusal):
-    """The run has the highest allowed number of open queries."""
+    """The run would have more open queries than the server allows."""
 
     status, name, title = 429, "too-many-queries", "Too many open queries"
 

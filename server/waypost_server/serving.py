@@ -22,7 +22,7 @@ class CannotServe(Exception):
 
 
 class Server(uvicorn.Server):
-    """Uvicorn; when told to stop, it first ends streams and long polls."""
+    """Uvicorn, but before it stops, it ends streams and long polls."""
 
     def __init__(self, app: FastAPI, log_level: str) -> None:
         config = uvicorn.Config(

@@ -8,7 +8,7 @@ from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 
 class Settings(BaseSettings):
-    """What an operator can configure."""
+    """The settings that an operator can change."""
 
     model_config = SettingsConfigDict(env_prefix="WAYPOST_", extra="forbid", frozen=True)
 
@@ -16,31 +16,35 @@ class Settings(BaseSettings):
         default="sqlite:///waypost.db", description="SQLAlchemy URL: sqlite:///FILE or postgresql://..."
     )
     lease_seconds: float = Field(default=60.0, gt=0, description="How long a lease lasts without a renewal.")
-    lease_cap_seconds: float = Field(default=3_600.0, gt=0, description="How long renewals can keep one lease.")
+    lease_cap_seconds: float = Field(default=3_600.0, gt=0, description="How long renewals can keep one lease valid.")
     presence_seconds: float = Field(
         default=15.0, gt=0, description="How long an annotator counts as at work after asking for a query."
     )
     idle_seconds: float = Field(
-        default=30.0, gt=0, description="A gap between two signs of activity counts as active time at most so long."
+        default=30.0, gt=0, description="The maximum time counted as active between two signs of activity."
     )
     follow_up_seconds: float = Field(
         default=20.0,
         ge=0,
-        description="How long a follow-up query is reserved for its annotator.",
+        description="How long a follow-up query is reserved for the annotator whose answer it follows.",
     )
-    reap_seconds: float = Field(default=1.0, gt=0, description="How often expired leases are ended.")
+    reap_seconds: float = Field(default=1.0, gt=0, description="The interval between two removals of expired leases.")
     poll_seconds: float = Field(
         default=0.5,
         gt=0,
-        description="How often a long poll reads the store without a wake-up.",
+        description="The interval at which a long poll reads the store when nothing wakes it.",
     )
-    max_open_queries: int = Field(default=10_000, gt=0, description="The most unanswered queries of one run.")
-    max_body_bytes: int = Field(default=4 * 2**20, gt=0, description="Largest request body.")
-    max_frame_bytes: int = Field(default=2**20, gt=0, description="Largest picture of a state.")
-    body_seconds: float = Field(default=30.0, gt=0, description="The longest time a request body may take to arrive.")
+    max_open_queries: int = Field(default=10_000, gt=0, description="The maximum number of unanswered queries per run.")
+    max_body_bytes: int = Field(default=4 * 2**20, gt=0, description="The maximum size of a request body.")
+    max_frame_bytes: int = Field(default=2**20, gt=0, description="The maximum size of a picture of a state.")
+    body_seconds: float = Field(default=30.0, gt=0, description="The maximum time to receive a request body.")
     link_seconds: float = Field(default=900.0, gt=0, description="How long a login link is valid.")
-    session_seconds: float = Field(default=30 * 86_400.0, gt=0, description="How long a browser stays logged in.")
-    login_failures: int = Field(default=10, gt=0, description="Wrong login codes a client may send per minute.")
+    session_seconds: float = Field(
+        default=30 * 86_400.0, gt=0, description="How long a browser stays logged in after its last use."
+    )
+    login_failures: int = Field(
+        default=10, gt=0, description="The maximum number of wrong login codes per client and minute."
+    )
     hosts: Annotated[tuple[str, ...], NoDecode] = Field(
         default=(), description='Host names served in addition to loopback, comma-separated; "*" for any.'
     )
@@ -48,9 +52,11 @@ class Settings(BaseSettings):
         default=False, description="True behind an https proxy: browsers send the cookie over https only."
     )
     practice: Path | None = Field(
-        default=None, description="A file that `waypost practice` wrote; without it, the practice queries of the maze."
+        default=None, description="A file that `waypost practice` wrote; the default has queries about mazes."
     )
-    page: Path | None = Field(default=None, description="Folder of the built web app; without it, found automatically.")
+    page: Path | None = Field(
+        default=None, description="The folder of the built web app; the default is found automatically."
+    )
 
     @field_validator("hosts", mode="before")
     @classmethod

@@ -24,14 +24,15 @@ from waypost_server.settings import Settings
 def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Settings) -> wire.Assignment:
     """Retract an answer: refund it, and lease its query to the same annotator again.
 
-    The answer keeps its row. The query gets a new revision, which the next answer belongs to.
+    The answer keeps its row. The query gets a new revision; the next answer belongs to it.
 
     Raises:
         NotFound, NotYours, WrongToken: the user does not have this assignment.
         LeaseEnded: the assignment has no answer that counts.
         AnswerUsed: the learner has used the answer.
         AnswerRetracted: the answer was retracted before, and its new lease is over.
-        RunFinished, BudgetExhausted: the run cannot have the query answered again.
+        RunFinished: the run is finished.
+        BudgetExhausted: the budget has too few units left for another answer.
     """
     found = find(tx, assignment, user, body.token)
     run = runs.lock(tx, found.run)

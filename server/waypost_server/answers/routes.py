@@ -1,4 +1,4 @@
-"""An annotator answers a query, or takes an answer back."""
+"""Routes to answer a query, and to retract an answer."""
 
 from typing import Annotated
 
@@ -48,7 +48,7 @@ async def answer(
     caller: AnnotatorCalls,
     key: Key = None,
 ) -> wire.Receipt:
-    """Answer. The answer is stored, charged and closed in one transaction, and acknowledged when it is on disk."""
+    """Answer a query. One transaction stores and charges the answer; the reply comes when the answer is on disk."""
     following = LeaseRequest.of(body.next, caller.user, context.settings, after=assignment) if body.next else None
     post = answers.Post(assignment, caller.user, body.token, body.answer, key, context.settings.idle_seconds)
     outcome = await context.db.write(lambda tx: answers.answer(tx, post, following))
@@ -74,6 +74,6 @@ async def answer(
     ),
 )
 async def retract(assignment: RowPath, body: wire.Retract, context: Ctx, caller: AnnotatorCalls) -> wire.Assignment:
-    """Take back an answer that the learner has not used. It is refunded, and its query is leased again."""
+    """Retract an answer that the learner has not used: refund it, and lease its query to the caller again."""
     settings = context.settings
     return await context.db.write(lambda tx: retraction.retract(tx, assignment, caller.user, body, settings))

@@ -1,7 +1,7 @@
-"""Answers: checked, stored, charged and closed in one transaction.
+"""Checks, stores and charges an answer, and closes its query, in one transaction.
 
-A late answer is refused but kept: it is stored without a revision, so it never counts and costs nothing. The refusal
-is therefore part of the outcome; an exception would undo the storing.
+A late answer is refused but kept: it is stored without a revision, so it never counts and costs nothing. Its refusal is
+returned, not raised, because an exception would roll back the transaction.
 """
 
 from dataclasses import dataclass

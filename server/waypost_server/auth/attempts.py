@@ -47,7 +47,7 @@ class LoginAttempts:
 
 
 async def attempts_of(connection: HTTPConnection) -> LoginAttempts:
-    """Return the login attempts that the app has counted."""
+    """Return the count of login attempts of the app that serves a request."""
     return cast(LoginAttempts, connection.app.state.attempts)
 
 

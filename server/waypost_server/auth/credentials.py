@@ -30,7 +30,7 @@ class Owner:
 
 @dataclass(frozen=True)
 class Secret:
-    """A new secret in clear text, which exists only here."""
+    """A new credential with its secret in clear text. The store never has the clear text."""
 
     id: int
     user: int
@@ -54,7 +54,7 @@ def issue(tx: Tx, user: int, kind: CredentialKind, label: str = "", seconds: flo
     if owner is None:
         raise errors.NotFound(f"There is no user {user}.")
     if owner.deactivated_at is not None:
-        raise errors.NotActive(f"{owner.name} is deactivated; reactivate them first.")
+        raise errors.NotActive(f"{owner.name} is deactivated; reactivate the user first.")
     secret = f"wp_{secrets.token_urlsafe(32)}"
     expires_at = None if seconds is None else tx.now + seconds
     row = tx.conn.execute(
@@ -103,7 +103,7 @@ def valid(tx: Tx, user: int, kind: CredentialKind) -> Select[Any]:
 
 
 def revoke(tx: Tx, credential: int) -> None:
-    """Revoke a credential, effective immediately."""
+    """Revoke a credential."""
     _revoke_where(tx, credentials.c.id == credential)
 
 

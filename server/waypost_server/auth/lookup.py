@@ -1,4 +1,4 @@
-"""The lookup of secrets, cached for a second per server process."""
+"""Finds the owner of a secret, with a cache of one second in each server process."""
 
 import time
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Permissions: every route depends on one of these, which authenticates the caller and checks the role."""
+"""Permissions: dependencies of routes, which authenticate the caller and check the role."""
 
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
@@ -49,7 +49,7 @@ async def authenticate(connection: HTTPConnection, cache: CredentialCache) -> Ca
 def allow(roles: frozenset[Role]) -> Callable[..., Coroutine[Any, Any, Caller]]:
     """Return a dependency that admits only these roles.
 
-    A request with a session cookie that changes something must also come from this server's own page.
+    A request with a session cookie that changes something must also come from this server's own web app.
     """
 
     async def check(
@@ -68,10 +68,10 @@ def allow(roles: frozenset[Role]) -> Callable[..., Coroutine[Any, Any, Caller]]:
 
 
 async def authenticate_socket(socket: HTTPConnection, cache: CredentialCache) -> Caller:
-    """Return the caller who opens a play socket. With a cookie, the socket must come from this server's own page.
+    """Return the caller who opens a play socket. With a cookie, the socket must come from this server's own web app.
 
     Raises:
-        Unauthenticated, CrossSite, Forbidden: the caller may not open one.
+        Unauthenticated, CrossSite, Forbidden: the caller may not open a play socket.
     """
     caller = await authenticate(socket, cache)
     if caller.by_cookie:
@@ -91,7 +91,7 @@ def check_role(caller: Caller, roles: frozenset[Role]) -> None:
 
 
 def refuse_cross_site(connection: HTTPConnection) -> None:
-    """Refuse a request unless the browser says that this server's own page sent it.
+    """Refuse a request unless the browser says that this server's own web app sent it.
 
     Raises:
         CrossSite: another site may have sent it.
@@ -100,10 +100,10 @@ def refuse_cross_site(connection: HTTPConnection) -> None:
     if site is not None:
         if site in {"same-origin", "none"}:
             return
-        raise errors.CrossSite(f"The request came from a {site} page.")
+        raise errors.CrossSite(f"The request did not come from this server's own web app (Sec-Fetch-Site: {site}).")
     origin = connection.headers.get("origin", "")
     if origin.partition("://")[2] != connection.headers.get("host"):
-        raise errors.CrossSite("With a session cookie, send the page's Origin; a program should use a token instead.")
+        raise errors.CrossSite("With a session cookie, the Origin must be this server's; a program should use a token.")
 
 
 AnyoneCalls = Annotated[Caller, Depends(allow(ANYONE))]

@@ -1,4 +1,4 @@
-"""Roles: which of them may do what, and the check that a user still has one."""
+"""Roles: the groups of roles that routes allow, and the check that a user may still answer."""
 
 from sqlalchemy import bindparam, select
 

@@ -56,7 +56,7 @@ def why_refused(tx: Tx, code: str) -> errors.Unauthenticated:
 
 
 def list_sessions(tx: Tx, user: int, current: int) -> wire.SessionList:
-    """List a user's sessions, oldest first; `current` is the session that asks."""
+    """List a user's sessions, oldest first; `current` is the session of the request."""
     rows = tx.conn.execute(valid(tx, user, "session"))
     return wire.SessionList(
         sessions=[

@@ -1,4 +1,4 @@
-"""API tokens: created, listed and revoked."""
+"""Creates, lists and revokes API tokens."""
 
 from sqlalchemy import select
 

@@ -1,7 +1,7 @@
-"""The store: an SQLite or PostgreSQL database, and how transactions run on it.
+"""The store: opens an SQLite or PostgreSQL database, and runs transactions on it.
 
-Transactions run off the event loop and are acknowledged after their commit. SQLite has one thread and one connection
-that writes and commits many transactions at once (`db.writer`). PostgreSQL runs each transaction by itself.
+Transactions run on threads, not on the event loop, and are acknowledged after their commit. SQLite has one thread with
+one connection, which writes and commits many transactions at once (`db.writer`). PostgreSQL commits each by itself.
 """
 
 import asyncio

@@ -1,4 +1,4 @@
-"""The schema of a store, brought up to date when the database is opened."""
+"""Upgrades the schema of a store when the database is opened."""
 
 from pathlib import Path
 

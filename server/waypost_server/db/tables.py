@@ -94,7 +94,7 @@ runs = Table(
     Column("finished_at", Float),
     # The share of an annotator's queries in this run that are gold.
     Column("gold_rate", Float, nullable=False, server_default=text("0")),
-    # Set in a shadow run: the run whose gold queries are answered here. Nothing of a shadow belongs to that run.
+    # Set in a shadow run: the run whose gold queries are answered here. That run does not include its shadow's rows.
     Column("gold_of", Text, ForeignKey("runs.id")),
     one_of("state", "running", "paused", "finished"),
     CheckConstraint("gold_rate >= 0 AND gold_rate <= 0.5", name="gold_rate"),
@@ -124,7 +124,7 @@ queries = Table(
     Column("answer_id", RowId, ForeignKey("answers.id", use_alter=True), unique=True),
     Column("used", Boolean, nullable=False),
     Column("created_at", Float, nullable=False),
-    # The user who had answered the episode last when the query was asked, so that leasing need not read all answers.
+    # The user who gave the last answer in this episode before the query was asked; leasing then reads no answers.
     Column("follows_user_id", RowId, ForeignKey("users.id")),
     one_of("kind", *KINDS),
     # open -> leased -> answered | cancelled; leased -> open: released or expired; answered -> leased: retracted.
@@ -152,14 +152,14 @@ assignments = Table(
     Column("id", RowId, primary_key=True),
     Column("query_id", RowId, ForeignKey("queries.id"), nullable=False, index=True),
     Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
-    # Fences one lease. It is useless without its owner's login, so it is stored in clear text.
+    # The fencing token of one lease. Without its owner's login nobody can use it, so it is stored in clear text.
     Column("token", Text, nullable=False),
     Column("state", Text, nullable=False),
     Column("deferring", Boolean, nullable=False),
-    # The assignment whose answer's reply handed out this one.
+    # The assignment whose answer also asked for this one.
     Column("after_id", RowId, ForeignKey("assignments.id"), index=True),
     Column("reason", Text),
-    Column("tab", Text),  # the browser tab that asked for it, if it gave a name
+    Column("tab", Text),  # the name of the browser tab that asked for it, if the request gave one
     Column("leased_at", Float, nullable=False),
     Column("expires_at", Float, nullable=False),
     Column("ended_at", Float),
@@ -333,7 +333,7 @@ gold_showings = Table(
     Index("ix_probes_gold", "gold_id"),
 )
 
-# How many queries of a run an annotator has got since the run has a gold rate.
+# How many queries of a run an annotator has got while the run had a gold rate.
 gold_streams = Table(
     "gold_streams",
     metadata,

@@ -1,4 +1,4 @@
-"""A transaction: the connection, the time, and the topics to wake after the commit. Every statement runs in one."""
+"""A transaction: the connection, the time, and the topics to wake after the commit. Every SQL statement runs in one."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -4,13 +4,13 @@ import asyncio
 from weakref import WeakValueDictionary
 
 Topics = set[str]
-"""Names of what can change: the queue, a query, the answers or the events of a run."""
+"""Names of things that can change: the queue, a query, the answers or the events of a run."""
 
 QUEUE = "queue"
 
 
 class Hub:
-    """Topics to wait on. A wake-up carries no data; the waiter reads the store again."""
+    """The topics that requests wait on. A wake-up carries no data; the waiter reads the store again."""
 
     def __init__(self) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None

@@ -117,7 +117,7 @@ class GroupCommit:
 
 
 def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:
-    """Run one job. A refusal leaves no trace; a failing database fails the whole batch."""
+    """Run one job. A refusal changes nothing in the store; a failing database fails the whole batch."""
     woken: Topics = set()
     savepoint = conn.begin_nested()
     try:
@@ -167,4 +167,4 @@ class CommittingThreads:
 
 def _storage_failed(error: DBAPIError) -> errors.StorageFailed:
     cause = str(error.orig).strip().partition("\n")[0]
-    return errors.StorageFailed(f"Nothing was stored ({cause}); send the same again.", retry_after=1)
+    return errors.StorageFailed(f"Nothing was stored ({cause}); send the same request again.", retry_after=1)

@@ -1,7 +1,7 @@
 """Gold queries: queries of a run with known answers. They come from answered queries of the run or from a client.
 
 They are answered in the run's shadow: a separate row of `runs` that no API call shows. The ledger, answers, events and
-curves are kept by run, so none of them can contain anything of a gold query.
+curves belong to one run each, so those of the run itself contain nothing from its gold queries.
 """
 
 import secrets
@@ -27,7 +27,7 @@ _COPIED = ("user_id", "name", "algorithm", "seed", "vocabulary", "prices")
 
 @dataclass(frozen=True)
 class Item:
-    """A query to make gold, and its origin."""
+    """A query to make gold, with its known answer, and the query and author that the known answer comes from."""
 
     ask: wire.Ask
     known: wire.Known
@@ -36,13 +36,13 @@ class Item:
 
 
 def agreement() -> ColumnElement[float | None]:
-    """Return the share of right labels over the showings that a statement groups; null if there are none."""
+    """Return the SQL for the share of right labels in a group of showings; it is null if nothing was answered."""
     n_labels = func.sum(gold_showings.c.n_labels)
     return case((n_labels > 0, func.sum(gold_showings.c.n_right) * 1.0 / n_labels), else_=None)
 
 
 def add(tx: Tx, run: str, wanted: wire.GoldPost) -> wire.GoldList:
-    """Make queries gold. Gold queries stay gold; retired ones become active again.
+    """Make queries gold. A query that is already gold stays gold; a retired gold query becomes active again.
 
     Raises:
         NotFound, NotAnswered, Unprocessable: a query is not of this run, has no answer, or cannot be gold.
@@ -79,7 +79,7 @@ def _ensure_shadow(tx: Tx, row: Row[Any]) -> None:
     if shadow_of(tx, row.id) is not None:
         return
     copied = {name: row._mapping[name] for name in _COPIED}
-    # Paused, so that the queue never offers its queries by itself.
+    # Paused, so that only `schedule` hands out its queries.
     state = {"state": "finished", "finished_at": tx.now} if row.state == "finished" else {"state": "paused"}
     tx.conn.execute(
         insert(run_table).values(

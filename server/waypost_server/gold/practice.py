@@ -23,7 +23,7 @@ class Exercise(wire.KnownAsk):
 
 
 class PracticeFile(BaseModel):
-    """The content of the file."""
+    """The content of a file of practice queries."""
 
     vocabulary: wire.Vocabulary
     exercises: list[Exercise]
@@ -37,7 +37,7 @@ class PracticeSet:
     """The practice queries of a server."""
 
     def __init__(self, path: Path | None = None) -> None:
-        """Read the file; without a path, the one that is shipped.
+        """Read the file at `path`, or the file in this package.
 
         Raises:
             BadPractice: with one sentence for the operator.

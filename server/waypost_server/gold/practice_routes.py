@@ -1,4 +1,4 @@
-"""Practice queries: an annotator answers and gets feedback. Nothing is stored."""
+"""Routes of practice queries: an annotator answers and gets feedback. Nothing is stored."""
 
 from typing import Annotated
 

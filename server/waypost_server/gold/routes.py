@@ -1,4 +1,4 @@
-"""Gold queries of a run: added, listed, retired."""
+"""Routes to add, list and retire the gold queries of a run."""
 
 from fastapi import APIRouter
 
@@ -26,7 +26,7 @@ async def add_gold(run: str, body: wire.GoldPost, context: Ctx, _: LearnerCalls)
 
 @router.get("", operation_id="listGold", responses=refusals(errors.NotFound))
 async def list_gold(run: str, context: Ctx, _: LearnerCalls) -> wire.GoldList:
-    """List the run's gold queries, newest first, with how well annotators answered them."""
+    """List the run's gold queries, newest first, each with its number of answers and their agreement."""
     return await context.db.read(lambda tx: items.of_run(tx, run))
 
 

@@ -1,8 +1,8 @@
-"""The schedule of gold queries: when an annotator gets one, which one, and how the answer scored.
+"""The schedule of gold queries: when an annotator gets one, which one, and the score of the answer.
 
-An annotator gets one gold query in each block of 1 / rate queries of a run, at a random position in the block that
-depends on the user, the run and the rate alone. A gold query is leased only when a query of the run would be leased,
-so annotators wait no longer because of it, and a run loses no more than this share of anybody's answers.
+An annotator gets one gold query in each block of 1 / rate queries of a run. Its position in the block is pseudo-random;
+it depends only on the user, the run, the rate and the number of the block. A gold query is leased only in place of a
+query of the run. So annotators do not wait longer, and at most this share of their answers is lost to the run.
 """
 
 import hashlib
@@ -24,7 +24,7 @@ from waypost_server.gold import scoring
 from waypost_server.queries import service as queries
 from waypost_server.runs import service as runs
 
-# A permutation of small numbers that differs between annotators, so that each gets gold queries in another order.
+# A permutation of small numbers that differs between annotators, so that each gets gold queries in a different order.
 _ORDER = (gold.c.id * 7_919 + bindparam("user") * 104_729) % 65_537
 
 _own = run_table.alias("own")
@@ -121,7 +121,7 @@ def _choose(tx: Tx, user: int, kinds: Sequence[wire.Kind] | None, run: str) -> R
 
 
 def _open_showing(tx: Tx, user: int, item: int) -> int | None:
-    """Return the open query of an earlier showing that this annotator did not answer, if there is one."""
+    """Return the query of an earlier showing to this annotator that is still open, if there is one."""
     open_now = (gold_showings.c.gold_id == item, query_table.c.state == "open")
     return tx.conn.execute(_SHOWING.where(*open_now).correlate(None), {"user": user}).scalar()
 

@@ -1,4 +1,4 @@
-"""Scoring: answers compared with known answers, label by label.
+"""Scoring: compares answers with known answers, label by label.
 
 A label is a verdict, a subgoal, an action, or the termination of a segment. A label can have several right choices.
 """
@@ -22,7 +22,7 @@ def exactly(answer: wire.Answer) -> wire.Known:
     """Return the known answer for which only this answer is right.
 
     Raises:
-        Unprocessable: a demonstration. Many others would be as good, and the server cannot simulate them.
+        Unprocessable: a demonstration. Many demonstrations are equally good, and the server cannot execute them.
     """
     match answer:
         case wire.InspectAnswer():

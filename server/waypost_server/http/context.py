@@ -19,7 +19,7 @@ except PackageNotFoundError:  # run from a checkout that was not installed
 
 @dataclass(frozen=True)
 class Context:
-    """What every request can use."""
+    """The objects that every request can use."""
 
     settings: Settings
     db: Database

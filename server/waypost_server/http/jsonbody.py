@@ -1,4 +1,4 @@
-"""Strict JSON bodies: bounded depth, no NaN, no broken strings."""
+"""Strict JSON bodies: limited depth, no NaN, no invalid strings."""
 
 import json
 from collections.abc import Callable, Coroutine
@@ -13,7 +13,7 @@ class JsonRequest(Request):
     """A request whose body is parsed as strictly as RFC 8259 allows, to a depth of 200."""
 
     async def json(self) -> Any:
-        """Parse the body. A body that is not JSON becomes a 422 that says where."""
+        """Parse the body. A body that is not JSON is refused with 422, which says where the error is."""
         try:
             return from_json(await self.body(), allow_inf_nan=False)
         except ValueError as error:

@@ -8,8 +8,8 @@ RowPath = Annotated[int, Path(ge=1, le=2**63 - 1)]
 """A row's id in the path."""
 
 RowQuery = Annotated[int, Query(ge=0, le=2**63 - 1)]
-"""A row's id in the query string; 0 is before the first."""
+"""A row's id in the query string; 0 is before the first row."""
 
 Seconds = Annotated[
-    float, Query(ge=0, le=60, allow_inf_nan=False, description="Wait for a change at most so long, in seconds.")
+    float, Query(ge=0, le=60, allow_inf_nan=False, description="The longest time to wait for a change, in seconds.")
 ]

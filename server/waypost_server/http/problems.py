@@ -82,7 +82,7 @@ def install(app: FastAPI) -> None:
 
 
 def refusals(*kinds: type[Refusal]) -> dict[int | str, dict[str, Any]]:
-    """Return the `responses=` of a route with these refusals. Those that every route shares are added elsewhere."""
+    """Return the `responses=` of a route with these refusals. `http.description` adds the refusals of every route."""
     responses: dict[int | str, dict[str, Any]] = {}
     for kind in kinds:
         example = document(kind.status, kind.name, kind.title, (kind.__doc__ or "").split("\n")[0])

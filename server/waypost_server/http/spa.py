@@ -26,7 +26,7 @@ def install(app: FastAPI, folder: Path | None) -> None:
     @app.get("/{path:path}", include_in_schema=False)
     async def web_app(request: Request, path: str) -> Response:
         if path == "api" or path.startswith("api/"):
-            raise HTTPException(404, f"There is no {request.url.path}; /api/v1/openapi.json lists what there is.")
+            raise HTTPException(404, f"There is no {request.url.path}; /api/v1/openapi.json lists every path.")
         root = folder or find()
         if root is None or not (root / "index.html").is_file():
             return PlainTextResponse(MISSING, 200 if path == "" else 404)

@@ -1,4 +1,4 @@
-"""Assignments: one query leased to one annotator. This module finds them, checks them and returns them."""
+"""Finds and checks assignments. An assignment is one query leased to one annotator."""
 
 import secrets
 from dataclasses import dataclass
@@ -70,7 +70,7 @@ def check_live(assignment: OwnAssignment, now: float) -> None:
     """Refuse an assignment whose lease is over.
 
     Raises:
-        LeaseExpired, LeaseEnded, QueryCancelled: accordingly.
+        LeaseExpired, LeaseEnded, QueryCancelled: the reason why it is over.
     """
     if assignment.state == "cancelled":
         raise errors.QueryCancelled("The run ended, and its open queries were cancelled.")
@@ -91,7 +91,7 @@ def live_of(tx: Tx, user: int) -> wire.AssignmentList:
 
 
 def leased_after(tx: Tx, assignment: int) -> wire.Assignment | None:
-    """Return the live assignment that the reply to an earlier answer handed out, if there is one."""
+    """Return the live assignment that was leased with the answer to an earlier assignment, if there is one."""
     one = tx.conn.execute(
         select(assignments.c.id)
         .where(assignments.c.after_id == assignment, IS_LIVE, assignments.c.expires_at > tx.now)

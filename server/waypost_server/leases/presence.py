@@ -1,6 +1,6 @@
 """Presence: which annotators are at work, so that a bot can leave queries to them.
 
-An annotator is at work who asked for a query recently or holds a lease.
+An annotator is at work if they asked for a query recently or hold a lease. Requests with `defer` do not count.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ _ROW_OF = select(presence).where(presence.c.user_id == bindparam("user"))
 
 
 def record(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None) -> None:
-    """Record that an annotator asks for a query; while they wait, only every `REFRESH_SECONDS`."""
+    """Record that an annotator asks for a query; while the annotator waits, write only every `REFRESH_SECONDS`."""
     names = None if kinds is None else ",".join(sorted(kinds))
     known = tx.conn.execute(_ROW_OF, {"user": user}).one_or_none()
     if known and (known.run_id, known.kinds) == (run, names) and known.asked_at > tx.now - REFRESH_SECONDS:
@@ -29,7 +29,7 @@ def record(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None
     tx.conn.execute(new.on_conflict_do_update(index_elements=["user_id"], set_=values))
 
 
-# The annotator asked after `since`, or holds a lease at `now`.
+# The annotator asked after `since`, or holds a lease at `now` that was requested without `defer`.
 AT_WORK = or_(
     presence.c.asked_at > bindparam("since"),
     exists().where(
@@ -48,7 +48,7 @@ _OTHERS = select(func.count()).where(
 
 
 def somebody_would_take(tx: Tx, seconds: float) -> ColumnElement[bool]:
-    """Return the condition that an annotator at work accepts a query: its kind and its run, and did not skip it."""
+    """Return the condition that an annotator at work accepts the kind and run of a query, and did not skip it."""
     at_work = tx.conn.execute(_AT_WORK, {"since": tx.now - seconds, "now": tx.now}).all()
     return or_(false(), *(_takes(row) for row in at_work))
 
@@ -60,7 +60,7 @@ def others(tx: Tx, user: int, run: str | None, seconds: float) -> int:
 
 
 def takes() -> ColumnElement[bool]:
-    """Return the condition that the annotator in a row of `presence` would get a query."""
+    """Return the condition that the annotator in a row of `presence` accepts a query."""
     skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == presence.c.user_id)
     kinds = literal(",") + presence.c.kinds + ","
     return and_(

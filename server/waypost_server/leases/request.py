@@ -16,17 +16,17 @@ class LeaseRequest:
     user: int
     kinds: Kinds | None  # only these kinds of query; None for all
     run: str | None  # only this run; None for all
-    defer: float  # leave a query to other annotators for so long
+    defer: float  # how long to leave a query to other annotators
     ahead: bool  # the query will be answered after those that the annotator already has
     tab: str | None  # the browser tab that asks
-    after: int | None  # the assignment whose answer's reply hands the query out
+    after: int | None  # the assignment whose answer also asks for this query
     lease_seconds: float
     presence_seconds: float
     follow_up_seconds: float
 
     @classmethod
     def of(cls, lease: wire.Lease, user: int, settings: Settings, after: int | None = None) -> "LeaseRequest":
-        """Return the request that a message states."""
+        """Return the request of a message."""
         return cls(
             user,
             None if lease.kinds is None else tuple(sorted(set(lease.kinds))),

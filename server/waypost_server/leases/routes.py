@@ -1,4 +1,4 @@
-"""An annotator leases a query, keeps it, or gives it back."""
+"""Routes to lease a query, renew the lease, and release the query."""
 
 from fastapi import APIRouter, Request, Response
 
@@ -34,25 +34,25 @@ async def lease(body: wire.Lease, request: Request, context: Ctx, caller: Annota
 
 @router.post("/leave", status_code=204, operation_id="leave")
 async def leave(body: wire.Leave, context: Ctx, caller: AnnotatorCalls) -> None:
-    """Say that a browser tab is closing. What it holds is released, and it gets no new leases."""
+    """Close a browser tab: release its assignments, except those in `keep`, and refuse its lease requests."""
     await context.db.write(lambda tx: leases.close_tab(tx, caller.user, body))
 
 
 @router.get("", operation_id="myAssignments")
 async def my_assignments(context: Ctx, caller: AnnotatorCalls) -> wire.AssignmentList:
-    """List the caller's live assignments, so that a reloaded page can continue with them."""
+    """List the caller's live assignments, so that a reloaded tab can continue with them."""
     return await context.db.read(lambda tx: assignments.live_of(tx, caller.user))
 
 
 @router.post("/{assignment}/renew", operation_id="renew", responses=refusals(*NO_LIVE_LEASE))
 async def renew(assignment: RowPath, body: wire.Renew, context: Ctx, caller: AnnotatorCalls) -> wire.Renewal:
-    """Renew the lease: it lasts its full length from now, up to the server's cap."""
+    """Renew the lease: it lasts its full length from now, but not longer than the server's cap."""
     settings = context.settings
     return await context.db.write(lambda tx: leases.renew(tx, assignment, caller.user, body, settings))
 
 
 @router.post("/{assignment}/release", status_code=204, operation_id="release", responses=refusals(*NO_LIVE_LEASE))
 async def release(assignment: RowPath, body: wire.Release, context: Ctx, caller: AnnotatorCalls) -> None:
-    """Give the query back without an answer. With `skip`, it is not offered to the caller again."""
+    """Return the query to the queue without an answer. With `skip`, the caller does not get it again."""
     settings = context.settings
     await context.db.write(lambda tx: leases.release(tx, assignment, caller.user, body, settings))

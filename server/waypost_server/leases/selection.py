@@ -1,7 +1,7 @@
-"""Selection of an annotator's next query: by the run's priority, the query's, the episode last answered, then age.
+"""Selects an annotator's next query: by run priority, query priority, the episode last answered, then age.
 
-A query that follows an annotator's answer in the same episode (a follow-up) is reserved for that annotator for a
-while, as long as they are at work.
+A query that follows an annotator's answer in the same episode (a follow-up) is reserved for this annotator for a
+while, as long as the annotator is at work.
 """
 
 from dataclasses import dataclass
@@ -56,7 +56,7 @@ _LOCK_ONE = select(queries.c.id).where(queries.c.id == bindparam("query"), IS_OP
 
 
 def select_next(tx: Tx, request: LeaseRequest) -> int | None:
-    """Return the next query, locked: a follow-up if no query has a higher priority, else the first. None if none."""
+    """Return the next query, locked, or None: a follow-up if no query has a higher priority, else the first query."""
     n_others = presence.others(tx, request.user, request.run, request.presence_seconds)
     candidates = _candidates(tx, request, n_others > 0)
     parameters = request.parameters(tx.now)
@@ -85,7 +85,7 @@ def _leaves_enough(tx: Tx, candidates: Candidates, parameters: dict[str, Any], n
 
 
 def _candidates(tx: Tx, request: LeaseRequest, shared: bool) -> Candidates:
-    """Return the queries that an annotator may get; `shared` says that others are at work."""
+    """Return the statements for the queries that an annotator may get; `shared` says that others are at work."""
     if request.defer == 0:
         return _without_deferring(request.kinds, request.run is not None, shared)
     others = presence.somebody_would_take(tx, request.presence_seconds)
@@ -110,7 +110,7 @@ def _reserved_for_another() -> ColumnElement[bool]:
 
 
 def _offered(kinds: Kinds | None, one_run: bool, shared: bool) -> Select[Any]:
-    """Return the open queries that an annotator may get, best first."""
+    """Return the statement that selects the open queries that an annotator may get, best first."""
     skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == bindparam("user"))
     running = exists().where(runs.c.id == queries.c.run_id, runs.c.state == "running")
     offered = (

@@ -1,4 +1,4 @@
-"""Leases: how a query is handed out, kept, given back, and how a lease ends by itself."""
+"""Leases: granting, renewing, releasing and expiring them."""
 
 import secrets
 from collections.abc import Sequence
@@ -113,7 +113,7 @@ def renew(tx: Tx, assignment: int, user: int, body: wire.Renew, settings: Settin
 
 
 def release(tx: Tx, assignment: int, user: int, body: wire.Release, settings: Settings) -> None:
-    """Give a query back. With `skip`, it is not offered to this annotator again.
+    """Return a query to the queue. With `skip`, this annotator does not get it again.
 
     Raises:
         NotFound, NotYours, WrongToken, LeaseExpired, LeaseEnded, QueryCancelled: the user has no such live lease.

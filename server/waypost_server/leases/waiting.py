@@ -1,4 +1,4 @@
-"""Waiting for the next query."""
+"""Waits until there is a query to lease."""
 
 from fastapi import Request
 

@@ -60,7 +60,7 @@ def check_taken(tx: Tx, query: int, user: int, hello: wire.PlayTake) -> Demonstr
     """
     assignment = find(tx, hello.assignment, user, hello.token)
     if assignment.query != query:
-        raise errors.NotFound(f"Assignment {hello.assignment} is not of query {query}.")
+        raise errors.NotFound(f"Assignment {hello.assignment} belongs to another query than {query}.")
     check_live(assignment, tx.now)
     return _demonstration(tx, queries.view(tx, query))
 
@@ -115,4 +115,4 @@ class RateLimit:
         self._left = min(BURST, self._left + (now - self._at) * MESSAGES_PER_SECOND) - 1
         self._at = now
         if self._left < 0:
-            raise errors.TooManyMessages(f"At most {MESSAGES_PER_SECOND} messages a second.")
+            raise errors.TooManyMessages(f"Send at most {MESSAGES_PER_SECOND} messages per second.")

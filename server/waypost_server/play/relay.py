@@ -42,10 +42,10 @@ class Relay:
                     await self._tell(query)
 
     async def forward(self, query: int, side: Side, text: str) -> None:
-        """Send to one side, if it is connected."""
+        """Send a message to one side, if it is connected."""
         socket = self._seats.get((query, side))
         if socket is not None:
-            with suppress(WebSocketDisconnect, RuntimeError):  # it disconnected just now, which its own route notices
+            with suppress(WebSocketDisconnect, RuntimeError):  # it has just disconnected; its own route handles this
                 await socket.send_text(text)
 
     async def _tell(self, query: int) -> None:

@@ -1,7 +1,7 @@
-"""The play socket connects the annotator of a demonstration with the learner's environment.
+"""The route of the play socket, which connects the annotator of a demonstration with the learner's environment.
 
 Every refusal closes the socket with the code 4000 + its status and a reason, even before the first message, because a
-browser does not tell a page why a handshake was refused.
+browser does not tell the web app why a handshake was refused.
 """
 
 import asyncio
@@ -21,7 +21,7 @@ from waypost_server.play.relay import Relay, Sockets, close
 
 router = APIRouter()
 
-RECHECK_SECONDS = 5.0  # how often it is checked again that the lease is live
+RECHECK_SECONDS = 5.0  # the interval between two checks that the lease is still live
 
 
 @router.websocket("/queries/{query}/play")

@@ -33,7 +33,7 @@ class Names:
 
 
 def check_ask(ask: wire.Ask, names: Names, at: Location) -> None:
-    """Refuse a query that makes no sense in its run.
+    """Refuse a query that is not valid in its run.
 
     Raises:
         Unprocessable: naming the field below `at`.
@@ -90,7 +90,9 @@ def n_actions_of(segments: Sequence[wire.Segment]) -> int:
 def _check_segment(segment: wire.Segment, names: Names, at: Location) -> None:
     n_states, n_actions = len(segment.states), len(segment.actions)
     if n_states != n_actions + 1:
-        raise Unprocessable([*at, "states"], f"has {n_states} states; {n_actions} actions need one state more")
+        raise Unprocessable(
+            [*at, "states"], f"has {n_states} states for {n_actions} actions; send one more state than actions"
+        )
     if segment.frames and len(segment.frames) != n_states:
         raise Unprocessable(
             [*at, "frames"],

@@ -1,4 +1,4 @@
-"""A learner uploads pictures of states; the web app shows them."""
+"""Routes of frames: a learner uploads pictures of states, and the web app shows them."""
 
 from typing import Annotated
 

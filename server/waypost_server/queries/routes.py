@@ -1,4 +1,4 @@
-"""A learner asks queries, waits for answers, and marks answers as used."""
+"""Routes to ask queries, wait for answers, and mark answers as used."""
 
 from typing import Annotated
 

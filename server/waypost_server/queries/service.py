@@ -1,4 +1,4 @@
-"""Queries: asked, read and used. (run, episode, ordinal) identifies a query and makes asking idempotent."""
+"""Stores and reads queries, and marks answers as used. (run, episode, ordinal) identifies a query."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
@@ -51,7 +51,7 @@ _INSERT = insert(queries).returning(queries.c.id, sort_by_parameter_order=True)
 
 @dataclass(frozen=True)
 class Filter:
-    """Which queries of a run to list."""
+    """The filter of a list of a run's queries."""
 
     state: wire.QueryState | None
     kind: wire.Kind | None
@@ -153,7 +153,7 @@ def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_
     Raises:
         DifferentContent: a key was used before with other content.
         RunFinished, TooManyQueries, BudgetExhausted: the run cannot ask new queries.
-        Unprocessable: a query makes no sense in this run.
+        Unprocessable: a query is not valid in this run.
     """
     run_row = runs.lock(tx, run)
     known = _known(tx, run, contents)

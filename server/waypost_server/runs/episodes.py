@@ -1,4 +1,4 @@
-"""Results of episodes, as the learner reports them."""
+"""Stores the results of episodes that the learner reports."""
 
 from collections.abc import Sequence
 
@@ -14,7 +14,7 @@ from waypost_server.runs import service as runs
 
 
 def report(tx: Tx, run: str, results: Sequence[wire.EpisodeResult]) -> wire.Run:
-    """Store results. Reporting an episode again changes nothing, even if it took another time.
+    """Store results. Reporting an episode again changes nothing, even if its duration differs.
 
     Raises:
         DifferentContent: an episode was reported before with another result.
@@ -28,7 +28,7 @@ def report(tx: Tx, run: str, results: Sequence[wire.EpisodeResult]) -> wire.Run:
     known = {found.episode: wire.EpisodeResult.model_validate_json(found.result) for found in tx.conn.execute(stored)}
     for result in results:
         if result.episode in known:
-            # A learner that was killed repeats its last episodes, which then take another time.
+            # A learner that was killed repeats its last episodes, and their durations differ.
             if known[result.episode].model_copy(update={"seconds": result.seconds}) != result:
                 raise errors.DifferentContent(f"Episode {result.episode} was reported before, with another result.")
             continue

@@ -1,4 +1,4 @@
-"""Runs: create, list and change them, report episodes, read curves and costs."""
+"""Routes to create, list and change runs, report episodes, and read curves and costs."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""Runs: created, changed, finished. A run is one learner's training, with its state and its account."""
+"""Creates, changes and finishes runs. A run is one learner's training, with its state and its account."""
 
 import json
 import re
@@ -155,7 +155,7 @@ def patch(tx: Tx, run: str, wanted: wire.RunPatch) -> wire.Run:
     Raises:
         NotFound: there is no such run.
         RunFinished: a finished run cannot be resumed.
-        BudgetTooLow: the budget is below what is spent and reserved.
+        BudgetTooLow: the budget is below the units spent and reserved.
     """
     row = lock(tx, run)
     sent = wanted.model_fields_set
@@ -186,7 +186,7 @@ def _checked_budget(row: Row[Any], budget: float | None) -> int | None:
     if to_micro(budget) < committed:
         raise errors.BudgetTooLow(
             f"{to_units(row.spent):g} units are spent and {to_units(row.reserved):g} reserved for open queries; "
-            f"the budget cannot be less than {to_units(committed):g}. Finish the run to release what is reserved."
+            f"the budget cannot be less than {to_units(committed):g}. Finish the run to release the reserved units."
         )
     return to_micro(budget)
 

@@ -1,4 +1,4 @@
-"""Annotators' performance: how much they answered, how fast, and their accuracy on gold queries. Counted in SQL."""
+"""Annotators' performance: number of answers, speed, and accuracy on gold queries. Computed in SQL."""
 
 import statistics
 from collections import defaultdict
@@ -14,7 +14,7 @@ from waypost_server.db.transaction import Tx
 
 DAY = 86_400.0
 WEEK_DAYS = 7
-RECENT_ANSWERS = 1_000  # the median time is taken over these
+RECENT_ANSWERS = 1_000  # in `me`, the median time is over this many newest answers
 
 
 def me(tx: Tx, user: int) -> wire.Me:

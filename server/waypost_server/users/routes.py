@@ -1,4 +1,4 @@
-"""Users, their API tokens, login links and performance, for administrators; and the caller's own tokens."""
+"""Routes for administrators (users, their tokens, login links and performance), and for the caller's own tokens."""
 
 from typing import Annotated
 
@@ -41,9 +41,9 @@ async def get_user(user: RowId, context: Ctx, _: AdminCalls) -> wire.User:
 
 @router.patch("/users/{user}", operation_id="patchUser", responses=refusals(errors.NotFound, errors.LastAdministrator))
 async def patch_user(user: RowId, body: wire.UserPatch, context: Ctx, cache: Cached, _: AdminCalls) -> wire.User:
-    """Change a user's role, deactivate or reactivate them.
+    """Change a user's role; deactivate or reactivate a user.
 
-    Deactivation takes effect immediately: it ends the user's sessions, tokens, login links and leases. Answers stay.
+    Deactivation revokes sessions, tokens and login links, and releases leases, all immediately. Answers stay.
     """
     changed = await context.db.write(lambda tx: users.change(tx, user, body))
     cache.clear()
@@ -92,7 +92,7 @@ async def create_token(body: wire.TokenCreate, context: Ctx, caller: AnyoneCalls
     """Create an API token for the caller; an administrator may create one for any user. It is shown only once."""
     user = caller.user if body.user is None else body.user
     if user != caller.user and caller.role not in ADMINS:
-        raise errors.Forbidden("Only an administrator makes tokens for others.")
+        raise errors.Forbidden("Only an administrator may create tokens for other users.")
     return await context.db.write(lambda tx: tokens.create_token(tx, user, body.label))
 
 

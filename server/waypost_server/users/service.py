@@ -1,4 +1,4 @@
-"""Users: created, listed, changed. A user is a person or a program that may call the server."""
+"""Creates, lists and changes users. A user is a person or a program that may call the server."""
 
 from typing import Any
 
@@ -97,7 +97,7 @@ def list_users(tx: Tx) -> wire.UserList:
 def change(tx: Tx, user: int, patch: wire.UserPatch) -> wire.User:
     """Change a user's role, deactivate or reactivate the user. Absent fields of the patch change nothing.
 
-    Deactivation revokes all credentials. Losing the answering role releases leases. Answers stay.
+    Deactivation revokes all credentials. Deactivation, or a role that may not answer, releases leases. Answers stay.
 
     Raises:
         NotFound: there is no such user.
@@ -114,7 +114,7 @@ def change(tx: Tx, user: int, patch: wire.UserPatch) -> wire.User:
     role = patch.role or now.role
     active = now.deactivated_at is None if patch.active is None else patch.active
     if administrators.all() == [user] and (role != "admin" or not active):
-        raise errors.LastAdministrator(f"{now.name} is the only administrator; make somebody else one first.")
+        raise errors.LastAdministrator(f"{now.name} is the only administrator; first make another user one.")
     if not active and now.deactivated_at is None:
         revoke_all(tx, user)
     if not active or role not in ANNOTATORS:

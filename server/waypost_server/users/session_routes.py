@@ -1,4 +1,4 @@
-"""Login and logout, and the caller's own account: performance, tokens, sessions."""
+"""Routes of login and logout, and of the caller's own account: performance, tokens, sessions."""
 
 from fastapi import APIRouter, Request, Response
 
@@ -17,7 +17,7 @@ router = APIRouter(tags=["people"], route_class=JsonRoute)
 
 
 def _set_cookie(context: Context, request: Request, response: Response, secret: str) -> None:
-    """Make the browser keep a session for as long as the server does."""
+    """Set the session cookie. The browser keeps it for as long as the session lasts."""
     response.set_cookie(
         COOKIE,
         secret,

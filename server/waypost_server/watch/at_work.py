@@ -12,7 +12,7 @@ from waypost_server.db.transaction import Tx
 
 
 def at_work(tx: Tx, presence_seconds: float, lease_seconds: float, run: str | None) -> wire.AtWorkList:
-    """List the annotators who asked for a query recently or hold one, in one run or in all, the last seen first."""
+    """List the annotators who asked for a query recently or hold one, in one run or in all, last seen first."""
     leases = _leases_by_user(tx, lease_seconds)
     names = select(users.c.id, users.c.name, presence).outerjoin(presence, presence.c.user_id == users.c.id)
     is_listed = or_(presence.c.asked_at > tx.now - presence_seconds, users.c.id.in_(list(leases)))

@@ -1,4 +1,4 @@
-"""Server-sent events: the events of one run, and a message when any run changed."""
+"""Routes of server-sent events: the events of one run, and a message whenever any run has changed."""
 
 from typing import Annotated
 
@@ -63,5 +63,5 @@ async def stream_events(
     },
 )
 async def stream_changes(request: Request, context: Ctx, _: AnyoneCalls) -> StreamingResponse:
-    """Stream a message when any run changed, at most once a second."""
+    """Stream a message whenever any run has changed, at most one a second."""
     return StreamingResponse(sse.stream_changes(context, request), media_type="text/event-stream")

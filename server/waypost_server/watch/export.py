@@ -1,8 +1,7 @@
-"""Export of a run's tables as CSV or JSON Lines, streamed a few rows at a time, so that long runs need no memory.
+"""Export of a run's tables as CSV or JSON Lines. Queries and ledger are read in parts, so that they need little memory.
 
-Spreadsheets execute a CSV cell that begins like a formula. In CSV, text that people or programs chose (names,
-questions) therefore gets a leading apostrophe if it begins with `= + - @`, a tab or a line break. JSON Lines keep the
-text unchanged.
+Spreadsheets execute a CSV cell that begins like a formula. So in CSV, a text gets a leading apostrophe if it begins
+with `= + - @` (also in full width), a tab or a line break. JSON Lines keep the text unchanged.
 """
 
 import csv

@@ -68,7 +68,7 @@ def ledger_after(tx: Tx, run: str, after: int, limit: int) -> list[wire.LedgerEn
 
 
 def entries_of(tx: Tx, run: str, rows: Sequence[Row[Any]]) -> list[wire.LedgerEntry]:
-    """Return entries of a run's ledger, each with what the run had spent after it."""
+    """Return entries of a run's ledger, each with the balance after it: the units that the run had spent."""
     if not rows:
         return []
     ids = [row.id for row in rows]

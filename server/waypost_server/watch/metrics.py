@@ -1,4 +1,4 @@
-"""Metrics in Prometheus' text format, counted in the store."""
+"""Metrics in Prometheus' text format, computed from the store."""
 
 from collections.abc import Iterable
 

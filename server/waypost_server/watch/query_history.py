@@ -13,7 +13,7 @@ from waypost_server.watch.ledger_rows import ENTRIES, entries_of
 
 
 def history(tx: Tx, query: int) -> wire.QueryHistory:
-    """Return the history of a query, and its neighbors in the run.
+    """Return the history of a query, and the ids of the queries before and after it in the run.
 
     Raises:
         NotFound: there is no such query.

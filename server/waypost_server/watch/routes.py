@@ -1,4 +1,4 @@
-"""Watching runs: tables of queries and ledger entries, query history, annotators at work, downloads."""
+"""Routes to watch runs: tables of queries and ledger entries, query history, annotators at work, downloads."""
 
 from typing import Annotated
 
@@ -19,7 +19,7 @@ from waypost_server.watch.row_pages import RowPage
 router = APIRouter(tags=["watching"], route_class=JsonRoute)
 
 Before = Annotated[int | None, Query(ge=0, le=2**63 - 1, description="Only rows older than this one.")]
-After = Annotated[int | None, Query(ge=0, le=2**63 - 1, description="The rows just newer than this one.")]
+After = Annotated[int | None, Query(ge=0, le=2**63 - 1, description="The oldest rows that are newer than this one.")]
 Limit = Annotated[int, Query(ge=1, le=500)]
 Word = Annotated[str | None, Query(max_length=100, pattern=r"^[^\x00]*$")]
 

@@ -16,7 +16,7 @@ class RowPage:
     limit: int = 50
 
     def of(self, statement: Select[Any], key: ColumnElement[int]) -> Select[Any]:
-        """Return the statement that selects this page. `in_order` sorts the rows it returns."""
+        """Return the statement that selects this page. Then call `in_order` to sort its rows."""
         if self.before is not None:
             statement = statement.where(key < self.before)
         if self.after is not None:

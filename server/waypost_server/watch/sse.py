@@ -12,7 +12,7 @@ from waypost_server.http.context import Context
 from waypost_server.runs import events
 
 PING_SECONDS = 15.0
-CHANGES_SECONDS = 1.0  # the least time between two messages about any run
+CHANGES_SECONDS = 1.0  # the shortest time between two messages of `stream_changes`
 
 
 async def stream_run(context: Context, request: Request, run: str, cursor: int) -> AsyncIterator[str]:
@@ -36,7 +36,7 @@ async def stream_run(context: Context, request: Request, run: str, cursor: int) 
 
 
 async def stream_changes(context: Context, request: Request) -> AsyncIterator[str]:
-    """Yield a message when any run changed, until the client disconnects or the server stops."""
+    """Yield a message whenever any run has changed, until the client disconnects or the server stops."""
     clock = asyncio.get_running_loop().time
     cursor: int | None = None
     said_at = clock()

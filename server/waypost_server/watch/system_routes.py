@@ -17,19 +17,19 @@ router = APIRouter(tags=["system"])
 
 
 def _check_readable(tx: Tx) -> None:
-    """Read something, to see that the database answers and has the tables."""
+    """Read a row of `runs`, to check that the database answers and has the tables."""
     tx.conn.execute(select(runs.c.id).limit(1)).all()
 
 
 @router.get("/healthz", operation_id="healthz")
 async def healthz() -> wire.Health:
-    """Return that the process is alive."""
+    """Report that the process is alive."""
     return wire.Health(status="ok", version=VERSION)
 
 
 @router.get("/readyz", operation_id="readyz", responses=refusals(errors.StorageFailed))
 async def readyz(context: Ctx) -> wire.Health:
-    """Return that the database answers and has this version's schema."""
+    """Report that the database answers and has this version's tables."""
     await context.db.read(_check_readable)
     return wire.Health(status="ok", version=VERSION)
 

@@ -11,7 +11,7 @@ APPEND_ONLY = ("answers", "ledger", "events")
 
 
 def upgrade() -> None:
-    """Create every table, and hold what is append-only to it."""
+    """Create all tables, and the triggers of the append-only tables."""
     op.create_table(
         "users",
         sa.Column("id", ROW_ID, nullable=False),

@@ -11,7 +11,7 @@ IDLE_SECONDS = 30.0  # the default when this migration was written
 
 
 def upgrade() -> None:
-    """Make room for both; earlier answers, which came without signs of activity, count up to the cap."""
+    """Add the tables and columns. Earlier answers have no signs of activity; their seconds count up to the cap."""
     op.create_table(
         "activity",
         sa.Column("user_id", ROW_ID, nullable=False),
@@ -34,7 +34,7 @@ def upgrade() -> None:
 
 
 def _fill(table: str) -> None:
-    """Both tables are append-only, held by a trigger that rests here."""
+    """Fill the new column. The trigger that keeps the table append-only is off meanwhile."""
     most = IDLE_SECONDS
     fill = (
         f"UPDATE {table} SET active_seconds = CASE WHEN seconds > {most} THEN {most} "  # noqa: S608 (our names and number)

@@ -1,4 +1,4 @@
-"""Deactivated users, and gold queries."""
+"""Deactivation of users, last use of credentials, and gold queries."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -10,7 +10,7 @@ ROW_ID = sa.BigInteger().with_variant(sa.Integer(), "sqlite")
 
 
 def upgrade() -> None:
-    """Add what is known of people and their secrets, and the tables of gold queries."""
+    """Add columns to users, credentials and runs, and the tables of gold queries."""
     op.add_column("users", sa.Column("deactivated_at", sa.Float(), nullable=True))
     op.add_column("credentials", sa.Column("last_used_at", sa.Float(), nullable=True))
     # As SQL: both databases accept a constraint with a new column, and SQLite then needs no copy of the table.

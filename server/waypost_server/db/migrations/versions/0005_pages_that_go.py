@@ -10,7 +10,7 @@ ROW_ID = sa.BigInteger().with_variant(sa.Integer(), "sqlite")
 
 
 def upgrade() -> None:
-    """Add the page to assignments, and the table of pages that have gone."""
+    """Add the tab to assignments, and the table of closed tabs."""
     op.add_column("assignments", sa.Column("tab", sa.Text(), nullable=True))
     op.create_table(
         "departures",
