@@ -99,7 +99,7 @@ class Learner(threading.Thread):
         self._asked += BATCH
 
     def run(self) -> None:
-        """Ask another batch of queries whenever a batch was answered."""
+        """Ask another batch of queries whenever about one batch has been answered."""
         while not self._stopping.wait(0.5):
             if self._client.get(f"/runs/{self.run_id}").json()["open_queries"] < BACKLOG - BATCH:
                 self._ask()

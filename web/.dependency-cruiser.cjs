@@ -7,11 +7,11 @@ const LAYERS = [
   ['ui'], // components and formats of every view; who is signed in
   ['charts', 'player', 'task/labels'], // charts; a trajectory as frames, played; editors of labels
   ['render/maze'], // the maze on a canvas
-  ['render'], // what draws a state: the renderer of a domain, else pictures or text
+  ['render'], // drawing a state: with the renderer of its domain, else with pictures or as text
   ['runs/curves', 'runs/queries', 'task', 'work/answers'], // learning curves; queries and ledger; one query to answer; sending
-  ['play'], // a demonstration, played in the page
+  ['play'], // demonstrations, played in the web app
   ['people', 'practice', 'runs', 'runs/gold', 'work'], // the views
-  ['app'], // the frame of the page; it chooses the view
+  ['app'], // the header, and the choice of the view
 ];
 
 /** The files directly in these folders. */

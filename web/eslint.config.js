@@ -24,7 +24,7 @@ export default defineConfig(
       '@typescript-eslint/no-confusing-void-expression': ['error', { ignoreArrowShorthand: true }],
       '@typescript-eslint/no-unused-vars': ['error', { argsIgnorePattern: '^_', varsIgnorePattern: '^_' }],
       '@typescript-eslint/restrict-template-expressions': ['error', { allowNumber: true }],
-      // For SvelteKit's router, which the page does not use.
+      // This rule is for SvelteKit's router, which the web app does not use.
       'svelte/no-navigation-without-resolve': 'off',
     },
   },
@@ -37,7 +37,7 @@ export default defineConfig(
     },
   },
   {
-    // In markup, ESLint takes what a component or an element passes to a function for `any`. svelte-check knows better.
+    // In markup, ESLint does not know the types of event arguments and snippet parameters. svelte-check checks them.
     files: ['**/*.svelte'],
     rules: {
       '@typescript-eslint/no-unsafe-argument': 'off',

@@ -1,5 +1,5 @@
 // Checks the layers in .dependency-cruiser.cjs. dependency-cruiser does not see imports of types in .svelte files, because
-// Svelte's compiler drops them first. So it is given a copy of src/ in which each .svelte file is its script alone.
+// Svelte's compiler drops them first. So it gets a copy of src/ in which each .svelte file contains only its script.
 import { spawnSync } from 'node:child_process';
 import { cpSync, mkdtempSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';

@@ -1,3 +1,4 @@
+// The options of Svelte's compiler.
 import { vitePreprocess } from '@sveltejs/vite-plugin-svelte';
 
 export default {

@@ -1,4 +1,4 @@
-// Writes src/api/schema.d.ts from the server's OpenAPI document; with --check, says whether it is current.
+// Writes src/api/schema.d.ts from the server's OpenAPI document. With --check, fails if the file is not current.
 import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';

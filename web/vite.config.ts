@@ -1,3 +1,4 @@
+// Builds the web app, serves it during development, and runs its unit tests.
 import { svelte } from '@sveltejs/vite-plugin-svelte';
 import { defineConfig } from 'vitest/config';
 
@@ -5,7 +6,7 @@ export default defineConfig({
   plugins: [svelte()],
   build: {
     target: 'es2023',
-    // The page's content security policy allows neither inline code nor data: URLs.
+    // The server's content security policy allows neither inline code nor data: URLs.
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
     cssCodeSplit: true,
@@ -13,5 +14,5 @@ export default defineConfig({
   server: {
     proxy: { '/api': { target: 'http://127.0.0.1:8000', ws: true } },
   },
-  test: { include: ['src/**/*.test.ts'] }, // what needs a document says so in its first line
+  test: { include: ['src/**/*.test.ts'] }, // a test that needs a document says so in its first line
 });

@@ -62,7 +62,7 @@ def train(
     redraw: Annotated[bool, typer.Option(help="Draw instances until the learner fails on one.")] = False,
     head_start: Annotated[float | None, typer.Option(help="Share of an optimal trajectory to begin with.")] = None,
     values: Annotated[str | None, typer.Option(help='Values to replace in the preset: "relabeling=false".')] = None,
-    expert: Annotated[str, typer.Option(help="Who answers: oracle (in this process) or queue (others).")] = "oracle",
+    expert: Annotated[str, typer.Option(help="oracle answers in this process; with queue, others answer.")] = "oracle",
     server: ServerOption = None,
     token: TokenOption = "",
     store: StoreOption = None,

@@ -35,7 +35,7 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
     """Serve until interrupted, with a learner that asks queries and a bot that answers what people leave.
 
     Args:
-        port: where to serve; 0 takes a free port.
+        port: the port to serve on; 0 takes a free port.
         database: the SQLite file; it is created if it does not exist.
         episodes: the number of episodes of the learner's run.
         instances: the name of the run's instances.

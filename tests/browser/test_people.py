@@ -102,7 +102,7 @@ def test_somebody_new_practices_by_keyboard(open_page: Open, served: Served, lea
         expect(wrong).to_contain_text("is not right")
         page.keyboard.press("ArrowUp")
     page.keyboard.press("Enter")
-    expect(page.get_by_role("heading", name="4 of 10 all right")).to_be_visible()
+    expect(page.get_by_role("heading", name="4 of 10 right")).to_be_visible()
     page.get_by_role("button", name="Again").click()
     wait_for_heading(page, "Was the whole task accomplished?")
     assert learner.call("GET", f"/runs/{run}/costs")["total"] == 0

@@ -1,4 +1,4 @@
-// Sets the theme before the first paint, so that the other theme does not flash. Keep it like src/ui/style/theme.svelte.ts.
+// Sets the theme before the first paint, so that the other theme does not flash. It must match src/ui/style/theme.svelte.ts.
 try {
   const theme = localStorage.getItem('waypost:theme');
   if (theme === 'light' || theme === 'dark') document.documentElement.dataset.theme = theme;

@@ -36,7 +36,7 @@ class Learner:
     """mu and one pi_g with beta_g per subgoal, or one flat policy, with their data buffers.
 
     Args:
-        domain: where to act.
+        domain: the domain to act in.
         preset: the learning parameters.
         seed: fixes every random choice.
         levels: which policies there are, and how each level learns.
@@ -119,7 +119,7 @@ class Learner:
 
         Args:
             simulator: the environment to use.
-            instance: where to start.
+            instance: the instance to start.
             stream: `streams.TRAIN`, where Q-functions explore, or `streams.TEST`.
             number: the rollout's number in its stream. Seed, stream and number fix every random choice.
         """
@@ -142,7 +142,7 @@ class Learner:
     def learn(self, labels: Labels) -> None:
         """Append labels to the data buffers, then Train policies (docs/paper.md, deviation 6).
 
-        The trained policies are those with new rows, and those that train after every episode.
+        Train each policy that has new rows or that trains after every episode.
         """
         sizes = {key: len(data) for key, data in self.data.items()}
         use, dqn = self.preset.use, self.preset.training.dqn

@@ -14,7 +14,7 @@ def make_gold(client: Client, run: str, queries: int) -> int:
     Args:
         client: the client of a user who may edit the run.
         run: the run's id.
-        queries: how many of its answered queries, newest first.
+        queries: the number of answered queries to take, newest first.
 
     Raises:
         ValueError: the run's domain has no oracle, or is not installed.

@@ -63,7 +63,7 @@ def rows_of(labels: Labels, relabeling: Structured | None = None) -> Rows:
     """Return the rows that labels add to each policy's buffer, in the order in which the labels were appended.
 
     Args:
-        labels: of one episode.
+        labels: the labels of one episode.
         relabeling: the domain that derives labels for other tasks from these (docs/lean.md); no relabeling if None.
     """
     rows: Rows = {}

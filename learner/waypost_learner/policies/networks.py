@@ -60,7 +60,7 @@ def build_network(
 
     Args:
         observation_shape: (channels, rows, columns) for pictures, (features,) for vectors.
-        outputs: how many logits.
+        outputs: the number of logits.
         spec: the kind and the sizes of the network.
         dropout: the rate after each pool and after the fully connected layer; networks that plan have no dropout.
         rng: draws initial weights and dropout.

@@ -21,7 +21,7 @@ class Camera:
 
     Args:
         domain: the domain; if it is not `Pictured`, there are no pictures.
-        instance: where all trajectories start.
+        instance: the instance of all trajectories.
     """
 
     def __init__(self, domain: Domain, instance: Any) -> None:

@@ -25,7 +25,7 @@ class TrainConfig:
 
 
 def config_values(config: TrainConfig) -> dict[str, Any]:
-    """Return a configuration as a run stores it: its fields by name, without those that are None."""
+    """Return a configuration as a run stores it: its fields by name, except fields that are None."""
     return {key: value for key, value in asdict(config).items() if value is not None}
 
 

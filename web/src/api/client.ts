@@ -56,8 +56,8 @@ export function isAborted(error: unknown): boolean {
 }
 
 const UNREACHABLE = 'The server cannot be reached.';
-/** For views that load again without being asked to. */
-export const TRYING_AGAIN = 'The server cannot be reached. The page tries again automatically.';
+/** For views that reload their data automatically. */
+export const TRYING_AGAIN = 'The server cannot be reached. The web app tries again automatically.';
 
 /** Return what to tell the person about an error. */
 export function wordsOf(error: unknown, unreachable = UNREACHABLE): string {

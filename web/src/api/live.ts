@@ -48,7 +48,7 @@ function stream(address: string, listen: (source: EventSource) => void): () => v
   };
 }
 
-/** Return a function that calls at most once per `milliseconds`. Several calls during the wait are one call after it. */
+/** Return a function that calls at most once per `milliseconds`. Calls during the wait are combined into one call after it. */
 export function throttled(call: () => Promise<unknown>, milliseconds: number): () => void {
   let [busy, again] = [false, false];
 

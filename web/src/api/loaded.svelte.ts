@@ -1,8 +1,8 @@
-// What a view loads from the server: the value, or why there is none.
+// A value that a view loads from the server, or the reason why there is none.
 import { isAborted, Refused, TRYING_AGAIN, wordsOf } from './client';
 
 interface Options {
-  /** Whether the view loads again without being asked to; messages say so. */
+  /** Whether the view reloads its data automatically; error messages then say so. */
   readonly live?: boolean;
 }
 
@@ -24,7 +24,7 @@ export class Loaded<T> {
     return this.status === 404;
   }
 
-  /** Load the value and return whether that worked. Of several loads at once, only the last one counts. */
+  /** Load the value and return whether that worked. If several loads overlap, only the last one counts. */
   async load(): Promise<boolean> {
     const turn = ++this.#turn;
     try {

@@ -43,7 +43,7 @@ export type Practice = Schemas['Practice'];
 export type Feedback = Schemas['Feedback'];
 export type Json = Schemas['JsonValue'];
 
-/** The kinds of query about a trajectory: every kind except the demonstration, which makes one. */
+/** The kinds of query about a trajectory of the learner: every kind except the demonstration. */
 export const ANSWERABLE = [
   'inspect_full',
   'label_hi',

@@ -1,4 +1,4 @@
-// Starts the page.
+// Starts the web app.
 import { mount } from 'svelte';
 import '../ui/style/base.css';
 import App from './App.svelte';

@@ -26,7 +26,7 @@ export interface Series {
 const DASHES = ['', '7 4', '2 3', '10 3 2 3', '5 2', '12 4', '1 4', '8 3 2 3 2 3'];
 const MARKERS: readonly Marker[] = ['circle', 'square', 'triangle', 'diamond', 'flag', 'cross'];
 
-/** Return the mark of the series at a place: of eight colors, eight dashes and six shapes, so that 24 marks all differ. */
+/** Return the mark of the series with this number. There are eight colors, eight dashes and six shapes, so 24 marks differ. */
 export function markOf(index: number): Mark {
   return {
     color: `subgoal-${index % SUBGOAL_COLORS}`,
@@ -35,7 +35,7 @@ export function markOf(index: number): Mark {
   };
 }
 
-/** Where a value is on the screen, in pixels. */
+/** Maps a value to its position on the screen, in pixels. */
 export type ToPixel = (value: number) => number;
 
 /** Return the function that maps low..high onto from..to. */
@@ -62,7 +62,7 @@ export function extent(series: readonly Series[]): { x: [number, number]; y: num
   return { x: low <= high ? [low, high] : [0, 1], y: top };
 }
 
-/** Return the rows to draw. Of rows in the same column of pixels: the first, the lowest, the highest and the last. */
+/** Return the rows to draw: in each column of pixels the first, the lowest, the highest and the last row. */
 export function thinned(
   x: readonly number[],
   y: readonly (number | null)[],
@@ -176,7 +176,7 @@ export function spread(wanted: readonly number[], gap: number, low: number, high
   return placed;
 }
 
-/** Return the few rows at which a line has its marker; they differ from series to series. */
+/** Return the few rows at which a line has its marker. They are at other places in each series. */
 export function markerRows(series: Pick<Series, 'x'>, index: number, toX: ToPixel, every = 130): number[] {
   const rows: number[] = [];
   let next = toX(series.x[0] ?? 0) + every * (0.35 + 0.17 * (index % 5));

@@ -1,7 +1,7 @@
 // Rows as CSV text.
 export type Cell = string | number | null;
 
-/** A text that begins like a formula. It gets an apostrophe before it, as in the server's downloads. */
+/** Matches a text that begins like a formula. `toCsv` puts an apostrophe before it, like the server's downloads. */
 const FORMULA = /^[=+\-@\t\r\n\uff1d\uff0b\uff0d\uff20]/;
 
 /** Return rows as CSV (RFC 4180). */

@@ -109,7 +109,7 @@ function set(element: Element, attributes: Record<string, string | number>): voi
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
 }
 
-/** Return a text without the characters that no XML document may have. */
+/** Return a text without the characters that XML does not allow. */
 function legal(text: string): string {
   // eslint-disable-next-line no-control-regex -- control characters are what it removes
   return text.toWellFormed().replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g, '\ufffd');

@@ -35,7 +35,7 @@ export function bindingOf(bindings: readonly Binding[], command: Command): Bindi
   return bindings.find((binding) => binding.command === command);
 }
 
-/** Return whether the focused element uses the key itself: a field text, a slider arrows, a button Enter and Space. */
+/** Return whether the focused element uses the key: a field uses every key, a slider the arrows, a button Enter and Space. */
 export function belongsToElement(target: Element | null, key: string): boolean {
   if (target === null) return false;
   const field = target.closest<HTMLElement>('input, textarea, select, [contenteditable]');

@@ -45,7 +45,7 @@ type Group = 'Answer' | 'Player' | 'Task' | 'General';
 
 export type Mode = AnswerableKind | 'hier_demo' | 'flat_demo' | 'waiting' | 'feedback' | 'between';
 
-/** Return the bindings of a mode. Where a subgoal or an action has the key of another command, that command loses it. */
+/** Return the bindings of a mode. If a subgoal or an action has the key of another command, that command loses the key. */
 export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[] {
   const choices = vocabulary === null ? [] : choiceBindings(mode, vocabulary);
   const taken = new Set(choices.flatMap((binding) => binding.keys));
@@ -230,7 +230,7 @@ function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
   return [];
 }
 
-/** Actions have an arrow or a letter each, subgoals a free letter and a digit. In a flat demonstration, actions have the digits. */
+/** Each action has an arrow or a letter, each subgoal a digit and perhaps a letter. In a flat demonstration, actions also have digits. */
 function demoBindings(mode: 'hier_demo' | 'flat_demo', { subgoals, actions }: Vocabulary): Binding[] {
   const taken = new Set([...answerBindings(mode), UNDO, HELP].flatMap((binding) => binding.keys));
   const moves = actions.map((name, index): Binding => {
@@ -249,7 +249,7 @@ function freeLetter(name: string, taken: ReadonlySet<string>): string | undefine
   return Array.from(candidates).find((letter) => /[a-z]/.test(letter) && !taken.has(letter));
 }
 
-/** A subgoal has a digit, and its initial if that is free and no other subgoal has the same. */
+/** Each subgoal has a digit. It also has its initial, if that key is free and no other subgoal has the same initial. */
 function subgoalBindings(subgoals: readonly string[], reserved: ReadonlySet<string>): Binding[] {
   const initials = subgoals.map((name) => initial(name).toLowerCase());
   return subgoals.map((name, index) => {

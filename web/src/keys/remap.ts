@@ -48,7 +48,7 @@ export function refusal(
 
 const KEY = 'waypost:keys';
 
-/** Return the keymap that this browser keeps; an empty one if storage is off or holds something else. */
+/** Return the keymap that this browser has stored; an empty one if storage is off or contains something else. */
 export function loadKeymap(storage: Pick<Storage, 'getItem'>): Keymap {
   try {
     const stored: unknown = JSON.parse(storage.getItem(KEY) ?? '{}');
@@ -64,6 +64,6 @@ export function saveKeymap(storage: Pick<Storage, 'setItem' | 'removeItem'>, key
     if (Object.keys(keymap).length === 0) storage.removeItem(KEY);
     else storage.setItem(KEY, JSON.stringify(keymap));
   } catch {
-    // Storage may be off; then the keys last until the page is reloaded.
+    // Storage may be off; then the keys last until the web app is reloaded.
   }
 }

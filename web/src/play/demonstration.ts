@@ -1,4 +1,4 @@
-// A demonstration that is being played, as a list of moves. Pure: every function returns the next one.
+// A demonstration that is being played, as a list of moves. Pure: no function changes its arguments.
 import type { AnswerOf, AskOf, DemoSegment, Json, PlayStates, Price } from '../api/types';
 import type { Stretch, Tape } from '../player/tape';
 
@@ -13,16 +13,16 @@ export type Move =
 export interface Demonstration {
   readonly moves: readonly Move[];
   readonly states: readonly Json[]; // s_1 and the states that the learner's environment has returned
-  readonly pictures: readonly (string | null)[]; // the hash of each state's picture; null where there is none yet
-  readonly ended: boolean; // the episode, in the last of these states
-  readonly succeeded: boolean; // the whole task, in the last of these states
+  readonly pictures: readonly (string | null)[]; // the hash of each state's picture; null if there is none yet
+  readonly ended: boolean; // whether the episode ended in the last of these states
+  readonly succeeded: boolean; // whether the task is accomplished in the last of these states
 }
 
 /** A segment so far. */
 export interface Part {
   readonly subgoal: string | null; // null in a flat demonstration
   readonly actions: readonly string[];
-  readonly reached: boolean; // the annotator said so
+  readonly reached: boolean; // whether the annotator said that the subgoal is reached
 }
 
 type Ask = AskOf<'hier_demo'>;
@@ -59,7 +59,7 @@ export function countActions(parts: readonly Part[]): number {
   return parts.reduce((sum, part) => sum + part.actions.length, 0);
 }
 
-/** Return whether the states of some actions have not come yet. */
+/** Return whether the states of some actions have not arrived yet. */
 export function isBehind(demonstration: Demonstration): boolean {
   return countActions(partsOf(demonstration)) >= demonstration.states.length && !demonstration.ended;
 }
@@ -97,7 +97,7 @@ export function takeBack(demonstration: Demonstration): Demonstration {
   return fitted({ ...demonstration, moves: demonstration.moves.slice(0, -1) });
 }
 
-/** Take over the states that the environment returned. Moves after the end of the episode are dropped. */
+/** Add the states that the environment returned. Moves after the end of the episode are dropped. */
 export function learn(demonstration: Demonstration, news: PlayStates): Demonstration {
   const states = [...demonstration.states.slice(0, news.known), ...news.states];
   const pictures = states.map((_, at) => news.frames[at - news.known] ?? demonstration.pictures[at] ?? null);
@@ -114,7 +114,7 @@ export function costOf(demonstration: Demonstration, price: Price): number {
   return price.fixed + price.per_action * actions + price.per_segment * hierarchical;
 }
 
-/** Return the answer, or null while there is no step or a step has no state yet. */
+/** Return the answer; null if there is no step, or if a step has no state yet. */
 export function answerOf(demonstration: Demonstration): AnswerOf<'hier_demo'> | null {
   const segments = segmentsOf(demonstration);
   return segments.length === 0 || isBehind(demonstration) ? null : { kind: 'hier_demo', segments };

@@ -27,7 +27,7 @@ export class PlayDrafts {
     try {
       this.#storage.setItem(KEY, JSON.stringify(drafts));
     } catch {
-      // The storage is full or forbidden; the view itself still has the moves.
+      // The storage is full or off; the view itself still has the moves.
     }
   }
 

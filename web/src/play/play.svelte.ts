@@ -30,7 +30,7 @@ export class Play {
   stage: Stage = $state('connecting');
   refusal = $state(''); // why the server refuses the connection
   hint = $state(''); // why a key did nothing
-  doubtful = $state(false); // ask whether to send it, though the task is not accomplished
+  doubtful = $state(false); // whether to ask before sending, because the task is not accomplished
   readonly bindings;
   readonly parts = $derived.by(() => demos.partsOf(this.demonstration));
   readonly steps = $derived.by(() => demos.countActions(this.parts));
@@ -40,8 +40,8 @@ export class Play {
   readonly #options: PlayOptions;
   readonly #events: PlayEvents;
   #number = 0;
-  #underway: number | null = null; // the message whose states have not come yet
-  #heard = false; // whether any states have come, those of the start included
+  #underway: number | null = null; // the message whose states have not arrived yet
+  #heard = false; // whether any states have arrived, including the first state
   #outdated = false; // whether moves were undone since the last message
 
   constructor(options: PlayOptions, events: PlayEvents) {
@@ -151,7 +151,7 @@ export class Play {
     this.#options.drafts.keep(this.#options.draft, demonstration.moves);
   }
 
-  /** Send the environment the steps it has not carried out: one message at a time, always the newest. */
+  /** Send the environment the steps that it has not carried out: one message at a time, always with the newest moves. */
   #catchUp(): void {
     if (this.stage !== 'here' || this.#underway !== null) return;
     if (this.#heard && !demos.isBehind(this.demonstration)) return;
@@ -178,7 +178,7 @@ export class Play {
   }
 }
 
-/** Return in a sentence what to do next. */
+/** Return a sentence that says what to do next. */
 export function nextStep(play: Play): string {
   const { current, ask, steps } = play;
   if (ask.flat)

@@ -8,16 +8,16 @@ export interface SocketEvents {
   states(news: PlayStates): void;
   /** The connection is lost; the next attempt follows automatically. */
   lost(): void;
-  /** The server refuses the connection and says why; 409: the lease is not ours any more. */
+  /** The server refuses the connection and says why. Status 409: the lease has ended. */
   refused(words: string, status: number): void;
 }
 
 type OpenSocket = () => WebSocket;
 
 const REFUSED = 4400; // the close codes from here on are 4000 + the HTTP status of the refusal
-const PASSING = new Set([4408, 4429]); // these, and 4500 and above, may not last
+const PASSING = new Set([4408, 4429]); // after these, and after 4500 and above, connect again
 
-/** The socket of one query. When it is lost, it is opened again. */
+/** The socket of one query. When the connection is lost, it is opened again. */
 export class PlaySocket {
   readonly #open: OpenSocket;
   readonly #hello: PlayTake;

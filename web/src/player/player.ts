@@ -1,4 +1,4 @@
-// The player: its position, speed and moves on a tape. Pure: every function returns the next state.
+// The player: its position, speed and moves on a tape. Pure: a function that changes the player returns a new one.
 /** The state of the player. */
 export interface Player {
   readonly at: number; // frame

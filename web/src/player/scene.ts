@@ -7,7 +7,7 @@ export interface Scene {
   readonly tape: Tape;
   readonly vocabulary: Vocabulary;
   readonly at: number; // the frame shown
-  readonly current: number | null; // the stretch in question, if it is one of several
+  readonly current: number | null; // the index of the highlighted stretch; null for none
   readonly labels: readonly Label[];
 }
 

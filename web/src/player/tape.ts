@@ -9,17 +9,17 @@ export interface Stretch {
   readonly first: number;
   readonly last: number;
   readonly actions: readonly string[];
-  /** False for segments before those in question: they are only shown. */
+  /** Whether the query asks about this segment. Earlier segments are only shown. */
   readonly asked: boolean;
 }
 
 /** The joined segments of a query. The last state of a segment and the first of the next are one frame. */
 export interface Tape {
   readonly frames: readonly Json[];
-  /** The hash of each frame's picture; null where the learner sent none. */
+  /** The hash of each frame's picture; null if the learner sent none. */
   readonly pictures: readonly (string | null)[];
   readonly stretches: readonly Stretch[];
-  /** The frame where the segments in question begin. */
+  /** The frame where the first segment begins that the query asks about. */
   readonly start: number;
 }
 
@@ -68,7 +68,7 @@ export function actionAt(tape: Tape, frame: number): string | null {
   return stretch?.actions[frame - stretch.first] ?? null;
 }
 
-/** Return the frames of the states in question, in order: the states with an action, then the last state. */
+/** Return the frames of the states that the query asks about: the states with an action, then the last state. */
 export function askedFrames(tape: Tape): number[] {
   const acting = tape.stretches
     .filter((stretch) => stretch.asked)
@@ -82,7 +82,7 @@ export function stops(tape: Tape): number[] {
   return [...new Set(all)].sort((a, b) => a - b);
 }
 
-/** "step 12 of 40, action left, subgoal north" */
+/** Return a frame in words: "step 12 of 40, action left, subgoal north". */
 export function describeFrame(tape: Tape, frame: number): string {
   const parts = [`step ${frame} of ${lastFrame(tape)}`];
   const action = actionAt(tape, frame);

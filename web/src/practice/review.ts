@@ -1,4 +1,4 @@
-// Feedback in words and places.
+// The feedback in words, and the places on the map that it is about.
 import { readable } from '../api/names';
 import type { Answerable, Feedback } from '../api/types';
 import { askedFrames, lastFrame, type Tape } from '../player/tape';
@@ -30,7 +30,7 @@ export function choicesWords(right: readonly string[]): string {
   return right.map(labelWords).join(' or ');
 }
 
-/** Return the place of the first wrong label, else 0. */
+/** Return the index of the first wrong label; 0 if all are right. */
 export function firstToSee(marks: readonly Mark[]): number {
   return Math.max(
     0,

@@ -64,7 +64,7 @@ export class PracticeSession {
     else this.phase = 'done';
   }
 
-  /** Answer this query again after its feedback, else the previous one. */
+  /** After the feedback, answer this query again; before it, go back to the previous query. */
   back(): void {
     this.#show(Math.max(0, this.place - (this.phase === 'question' ? 1 : 0)));
   }
@@ -77,7 +77,7 @@ export class PracticeSession {
     this.phase = 'question';
   }
 
-  /** Return the queries of the practice file, except demonstrations: those need a learner's environment. */
+  /** Return the queries of the practice file except demonstrations, which need a learner's environment. */
   #queries(): readonly PracticeQuery[] {
     const queries = this.#practice?.queries ?? [];
     return queries.flatMap(({ id, ask }) => (ask.kind === 'hier_demo' ? [] : [{ id, ask }]));

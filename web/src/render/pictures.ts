@@ -8,7 +8,7 @@ const AHEAD = 24; // frames: more than two seconds of playing
 const KEPT = 400;
 const loaded = new Map<string, HTMLImageElement>();
 
-/** Load the pictures of the next frames. Those loaded before are not loaded again. */
+/** Load the pictures of the next frames, unless they are loaded already. */
 export function preload(hashes: readonly (string | null)[], at: number): void {
   for (const hash of hashes.slice(at, at + AHEAD)) {
     if (hash !== null) load(hash);

@@ -7,14 +7,14 @@ import type { Scene, Step } from '../player/scene';
 
 type Renderer = Component<{ scene: Scene }>;
 
-/** Other domains are shown by the pictures that the learner sent, or as text. */
+/** The renderers. Other domains are shown with the pictures that the learner sent, or as text. */
 const RENDERERS: Readonly<Record<string, Renderer>> = { maze: MazeView };
 
 export function rendererOf(name: string): Renderer {
   return Object.hasOwn(RENDERERS, name) ? (RENDERERS[name] ?? PictureView) : PictureView;
 }
 
-/** Domains whose steps the page can compute, so that it can show a demonstration without the learner. */
+/** Domains whose steps the web app can compute. It can show their demonstrations without the learner. */
 const STEPS: Readonly<Record<string, Step>> = { maze: stepMaze };
 
 export function stepOf(name: string): Step | null {

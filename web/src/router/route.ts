@@ -1,4 +1,4 @@
-// Addresses: which view they lead to, and their parameters. Pure.
+// Addresses: the view that an address leads to, and its parameters. Pure.
 
 export type Route =
   | { readonly view: 'login' }
@@ -64,7 +64,7 @@ export function searchWith(
   return parameters.size > 0 ? `?${parameters.toString()}` : '';
 }
 
-/** Return the whole number that a parameter is, or null where it is none. */
+/** Return a parameter as a whole number, or null if it is not one. */
 export function wholeNumber(text: string | null): number | null {
   return text !== null && /^\d{1,15}$/.test(text) ? Number(text) : null;
 }

@@ -1,4 +1,4 @@
-// The router: which view is shown, by the browser's address bar.
+// The router: it chooses the view from the address in the browser's address bar.
 import { parseRoute, searchWith, type Route } from './route';
 
 class Router {
@@ -22,7 +22,7 @@ class Router {
     this.go(location.pathname + searchWith(this.search, changes), replace);
   }
 
-  /** Follow a click on a link to another view, without loading the page again. */
+  /** Follow a click on a link to another view without reloading the web app. */
   follow(event: MouseEvent): void {
     const plain = event.button === 0 && !event.ctrlKey && !event.metaKey && !event.shiftKey && !event.altKey;
     const link = event.target instanceof Element ? event.target.closest('a') : null;

@@ -1,4 +1,4 @@
-// A notice: one message to the annotator, in the place kept free for it.
+// A notice: one message to the annotator, shown in `NoticeLine.svelte`.
 export interface Notice {
   readonly tone: 'info' | 'warning';
   readonly text: string;

@@ -12,7 +12,7 @@ import { draftOf, keepDraft } from './labels/drafts';
 export interface TaskOptions {
   readonly ask: Answerable;
   readonly vocabulary: Vocabulary;
-  readonly draft: number | null; // what the labels are kept under; null: not kept
+  readonly draft: number | null; // the id under which the labels are kept; null: not kept
   readonly speed: number;
   readonly still: boolean; // reduced motion: nothing plays by itself
 }
@@ -128,7 +128,7 @@ export class Task {
     );
   }
 
-  /** Return the first position: an inspection plays at once, and fast; labels begin at the first state. */
+  /** Return the player at the beginning. An inspection plays immediately and fast; labeling begins at the first state. */
   #firstLook(): players.Player {
     const { speed, still } = this.#options;
     const begin = players.player(this.tape.start, lastFrame(this.tape), speed);
@@ -138,7 +138,7 @@ export class Task {
     return players.toggle(begin);
   }
 
-  /** While labeling, show the frame that is to be labeled. */
+  /** If the query needs labels, show the frame of the label under the cursor. */
   #showCursor(): void {
     if (this.labels === null) return;
     const { cursor, kind } = this.labels;

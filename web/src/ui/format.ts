@@ -2,27 +2,27 @@
 const NUMBER = new Intl.NumberFormat('en', { maximumFractionDigits: 2 });
 const PERCENT = new Intl.NumberFormat('en', { style: 'percent', maximumFractionDigits: 1 });
 
-/** 1,420 */
+/** Return a number as text: 1,420. */
 export function number(value: number): string {
   return NUMBER.format(value);
 }
 
-/** 84.5% or a dash. */
+/** Return a share in percent: 84.5%; a dash for null. */
 export function percent(value: number | null): string {
   return value === null ? '–' : PERCENT.format(value);
 }
 
-/** 1 unit, 12 units */
+/** Return an amount in units: 1 unit, 12 units. */
 export function units(value: number): string {
   return count(value, 'unit');
 }
 
-/** 1 answer, 2 answers */
+/** Return a number with its noun: 1 answer, 2 answers. */
 export function count(value: number, noun: string, nouns = `${noun}s`): string {
   return `${number(value)} ${value === 1 ? noun : nouns}`;
 }
 
-/** 3.1 s, 4 min, 2 h 5 min */
+/** Return a duration in seconds as text: 3.1 s, 4 min, 2 h 5 min. */
 export function seconds(value: number): string {
   if (value < 60) return `${NUMBER.format(Math.round(value * 10) / 10)} s`;
   const minutes = Math.round(value / 60);
@@ -30,7 +30,7 @@ export function seconds(value: number): string {
   return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
 }
 
-/** just now, 5 min ago, 3 h ago, 2 d ago */
+/** Return how long ago a time was: just now, 5 min ago, 3 h ago, 2 d ago. */
 export function ago(then: number, now: number): string {
   const passed = now - then;
   if (passed < 60) return 'just now';

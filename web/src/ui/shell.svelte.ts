@@ -14,7 +14,7 @@ class Shell {
   helpOpen = $state(false);
   #run: ((command: Command) => void) | null = null;
 
-  /** Load who is signed in, unless that is known. */
+  /** Load the signed-in user, unless it is known. */
   async loadMe(): Promise<void> {
     if (this.me !== null) return;
     try {
@@ -35,7 +35,7 @@ class Shell {
     };
   }
 
-  /** Give a binding another key; with null, its default keys. `id` is as `idOf` returns it. */
+  /** Give a binding another key; null restores its default keys. `id` is as `idOf` returns it. */
   remap(id: string, key: string | null): void {
     const { [id]: _, ...others } = this.keymap;
     this.setKeymap(key === null ? others : { ...others, [id]: key });

@@ -1,8 +1,8 @@
-// Notes whether the annotator is active. The server counts the active seconds.
+// Records whether the annotator is active. The server counts the active seconds.
 
 const SIGNS = ['keydown', 'pointerdown', 'pointermove', 'wheel'] as const;
 
-/** Notes keys and pointer events. */
+/** Listens to keys and pointer events. */
 class Activity {
   #active = false;
 

@@ -3,11 +3,11 @@ import { Refused } from '../api/client';
 
 export interface Heartbeat {
   stop(): void;
-  now(): void; // renew at once, to see whether the lease is still ours
+  now(): void; // renew at once, to find out whether the lease still holds
 }
 export const NO_HEARTBEAT: Heartbeat = { stop: () => undefined, now: () => undefined };
 
-/** Renew a lease three times in its length while the tab is visible. Call `lost`, once, when the server refuses. */
+/** Renew a lease every third of its length while the tab is visible. When the server refuses, call `lost` once. */
 export function beat(leaseSeconds: number, renew: () => Promise<unknown>, lost: () => void): Heartbeat {
   let stopped = false;
 

@@ -2,7 +2,7 @@
 import { api, unwrap } from '../api/client';
 import { KINDS, type Assignment, type LeaseRequest, type Me } from '../api/types';
 
-/** The proof that a lease is ours. */
+/** The proof that this tab holds a lease. */
 export interface LeaseProof {
   readonly assignment: number;
   readonly token: string;
@@ -12,7 +12,7 @@ export interface WorkServer {
   lease(request: LeaseRequest, signal: AbortSignal): Promise<Assignment | null>;
   renew(lease: LeaseProof, active: boolean): Promise<unknown>;
   release(lease: LeaseProof, reason: string, skip: boolean): Promise<unknown>;
-  /** Say that the tab closes: release all its leases, present and coming, except the assignments in `keep`. */
+  /** Say that the tab closes: release all its current and future leases, except the assignments in `keep`. */
   leave(tab: string, keep: number[]): Promise<unknown>;
   retract(lease: LeaseProof, tab: string): Promise<Assignment>;
   me(): Promise<Me>;

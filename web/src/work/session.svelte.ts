@@ -46,11 +46,11 @@ export class WorkSession {
   #heartbeat = NO_HEARTBEAT;
   #tab = newName('tab');
   #ahead: readonly LeasedAhead[] = [];
-  #expected = 0; // requests under way that may bring a query ahead
+  #expected = 0; // the number of requests in progress that may bring a query to lease ahead
   #sending: Promise<unknown> = Promise.resolve();
   #sent: readonly LeaseProof[] = []; // answers that can be taken back, oldest first
   #stopped = false;
-  #stored = 0; // answers, since the view was opened
+  #stored = 0; // the number of answers stored since the view was opened
   #meAt = 0;
 
   constructor(
@@ -159,7 +159,7 @@ export class WorkSession {
     if (!this.#showAhead()) void this.#lookForWork();
   }
 
-  /** Take an assignment that has come: show it, keep it ahead, or release it. */
+  /** Take an assignment that has arrived: show it, keep it ahead, or release it. */
   #receive(assignment: Assignment): void {
     if (this.#stopped) void this.#release(proofOf(assignment));
     else if (this.phase === 'task') this.#keepAhead(assignment);
@@ -205,7 +205,7 @@ export class WorkSession {
     for (const assignment of assignments.slice(MOST_AHEAD)) void this.#release(proofOf(assignment));
   }
 
-  /** Put the query on the screen ahead again: another one is shown before it. */
+  /** Keep the query on the screen as the first one ahead, because another query is shown before it. */
   #postpone(): void {
     const { assignment } = this;
     if (assignment === null || this.phase !== 'task') return;
@@ -213,7 +213,7 @@ export class WorkSession {
     this.#keep([assignment, ...this.#waiting()]);
   }
 
-  /** Lease the next query ahead, unless one is leased already or on its way. */
+  /** Lease the next query ahead, unless one is leased already or requested. */
   async #lookAhead(): Promise<void> {
     if (this.#ahead.length > 0 || this.#expected > 0 || this.phase !== 'task') return;
     const { signal } = (this.#lookupAhead = new AbortController());
@@ -300,7 +300,7 @@ export class WorkSession {
     this.#warn(reason.message);
   }
 
-  /** Release every lease of this tab, present and coming, except those whose answers are being sent. */
+  /** Release every current and future lease of this tab, except those whose answers are being sent. */
   #releaseAll(): void {
     this.#lookup.abort();
     this.#lookupAhead.abort();

@@ -3,7 +3,7 @@ import type { Tape } from '../../player/tape';
 import { count } from '../../ui/format';
 import { describeCell, parseCell, type Maze } from './geometry';
 
-/** Return the picture in words: where the segments in question begin and end, and where the agent is now. */
+/** Return the picture in words: where the segments begin and end that the query asks about, and where the agent is now. */
 export function describeMaze(maze: Maze, tape: Tape, at: number): string {
   const place = (frame: number): string => {
     const cell = parseCell(tape.frames[frame]);

@@ -57,7 +57,7 @@ function drawTarget(brush: Brush, picture: Picture): void {
   }
 }
 
-/** Draw the path of a segment: thick up to the current frame, thin after it, faint if the segment is not in question. */
+/** Draw the path of a segment: thick up to the current frame, thin after it, faint if the query does not ask about it. */
 function drawTrail(brush: Brush, picture: Picture, stretch: Stretch): void {
   const { scene } = picture;
   const unit = unitOf(picture);

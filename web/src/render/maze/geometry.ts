@@ -70,7 +70,7 @@ export function direction(from: Cell, to: Cell): Cell | null {
 
 const OFFSETS = [0, 0.13, -0.13];
 
-/** Return how far, in cells, a segment's path is shifted, so that the path back does not cover the path there. */
+/** Return how far a segment's path is shifted, in cells. Without this, the way back would cover the way there. */
 export function trailOffset(index: number): number {
   return OFFSETS[index % OFFSETS.length] ?? 0;
 }

@@ -17,7 +17,7 @@ const NAMES = [
 ] as const;
 type Name = (typeof NAMES)[number];
 
-/** The colors, read from the style sheet, which alone defines them. */
+/** The colors, as the style sheet defines them. */
 export interface Palette {
   readonly map: Readonly<Record<Name, string>>;
   readonly subgoals: readonly string[];

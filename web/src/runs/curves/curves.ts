@@ -15,7 +15,7 @@ const KIND_MARKS: Readonly<Record<Kind, number>> = {
   label_full: 0,
 };
 
-/** A quantity that a curve can be drawn against. */
+/** A quantity for the x axis. */
 export interface XAxis {
   readonly name: string; // of the axis
   readonly short: string;
@@ -39,7 +39,7 @@ export function xAxisOf(name: string | null): XAxisName {
   return name !== null && Object.hasOwn(X_AXES, name) ? (name as XAxisName) : 'episode';
 }
 
-/** Return success as a series. Against cost or time it is a step function: the success reached so far. */
+/** Return success as a series. Over cost or time it is a step function: the success reached so far. */
 export function successOf(curves: Curves, xAxis: XAxisName): Series[] {
   const x = X_AXES[xAxis].of(curves);
   if (!curves.success_rate.some((rate) => rate !== null)) return [];
@@ -54,7 +54,7 @@ export function successOf(curves: Curves, xAxis: XAxisName): Series[] {
   ];
 }
 
-/** Return cumulative cost by kind as stacked layers, the highest first. Kinds without cost are left out. */
+/** Return the cumulative cost by kind as stacked layers, the top layer first. Kinds without cost are omitted. */
 export function stackOf(curves: Curves, xAxis: XAxisName): Series[] {
   const x = X_AXES[xAxis].of(curves);
   let below: readonly number[] = x.map(() => 0);
@@ -94,7 +94,7 @@ export function joined(known: Curves | null, more: Curves): Curves {
   };
 }
 
-/** Load the episodes that came after the known curves; return the curves with them. */
+/** Load the episodes after the known curves, and return the complete curves. */
 export async function updatedCurves(run: string, known: Curves | null): Promise<Curves> {
   const params = { path: { run }, query: { after: known?.episode.at(-1) ?? -1 } };
   return joined(known, await unwrap(api.GET('/api/v1/runs/{run}/curves', { params })));

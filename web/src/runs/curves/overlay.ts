@@ -57,7 +57,7 @@ function sameBut(run: Run): string {
   return JSON.stringify([[...factsOf(run)].sort(), run.prices, run.episodes]);
 }
 
-/** One run against an x axis. If the run is `over`, its last value holds from then on. */
+/** One run's values over an x axis. If the run is `over`, it keeps its last value. */
 export interface Track {
   readonly x: readonly number[];
   readonly y: readonly number[];

@@ -2,7 +2,7 @@
 import { readable } from '../../api/names';
 import type { Gold } from '../../api/types';
 
-/** Return the right answer in a line: "pass"; "north, east or south"; "up, right, done at state 3". */
+/** Return the right answer as one line: "pass"; "north, east or south"; "up, right, done at state 3". */
 export function knownWords(known: Gold['known']): string {
   switch (known.kind) {
     case 'inspect_full':

@@ -6,7 +6,7 @@ import * as players from '../../player/player';
 import { askedFrames, buildTape, lastFrame, stops, stretchAt, type Tape } from '../../player/tape';
 import type { Label, Scene, Step } from '../../player/scene';
 
-/** A query in the player, to be watched. */
+/** A query in the player. It can only be watched. */
 export class Replay {
   readonly tape: Tape;
   player = $state.raw(players.player(0, 0));
@@ -17,7 +17,7 @@ export class Replay {
   readonly #stops: readonly number[];
   readonly #labels: readonly Label[];
 
-  /** `step` computes the next state, in domains where the page can. */
+  /** `step` computes the next state; null if the web app cannot compute the steps of this domain. */
   constructor(query: Query, run: Run, step: Step | null) {
     this.#query = query;
     this.#run = run;
@@ -58,7 +58,7 @@ export class Replay {
   }
 }
 
-/** Return the learner's trajectory; of a demonstration, the annotator's, or only its start if states cannot be computed. */
+/** Return the learner's trajectory. For a demonstration, return the annotator's, or only its start if `step` is null. */
 export function tapeOf({ ask, answer }: Pick<Query, 'ask' | 'answer'>, step: Step | null): Tape {
   if (ask.kind !== 'hier_demo') return buildTape(ask.context, ask.segments);
   const start: Segment = { subgoal: null, states: [ask.state], actions: [], frames: [] };

@@ -53,7 +53,7 @@ export const ENTRIES: Readonly<Record<LedgerEntry['entry'], string>> = {
 
 const CLOCK = new Intl.DateTimeFormat('en-GB', { dateStyle: 'medium', timeStyle: 'medium' });
 
-/** 3 Mar 2026, 14:05:09 */
+/** Return a time as text: 3 Mar 2026, 14:05:09. */
 export function moment(at: number): string {
   return CLOCK.format(at * 1000);
 }

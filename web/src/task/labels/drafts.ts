@@ -1,4 +1,4 @@
-// Drafts: the labels of the queries that were on the screen last, kept until the page is reloaded.
+// Drafts: the labels of the queries that were on the screen last, kept until the web app is reloaded.
 import type { Labels } from './labels';
 
 const KEPT = 12;

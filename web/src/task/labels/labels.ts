@@ -1,4 +1,4 @@
-// The editor of any kind of label, and what the keys do in it.
+// The editor for every kind of label, and the edit of each command.
 import type { Answer, Answerable, Vocabulary } from '../../api/types';
 import type { Command } from '../../keys/registry';
 import * as hi from './hi';
@@ -24,7 +24,7 @@ export function answerOf(labels: Labels | null): Answer | null {
   return labels.kind === 'label_hi' ? hi.hiAnswer(labels) : lo.loAnswer(labels);
 }
 
-/** Label with the subgoal or action at a place in the vocabulary. */
+/** Label the current segment or state with the subgoal or action that has this number in the vocabulary. */
 export function choose(labels: Labels, index: number, vocabulary: Vocabulary): Labels {
   const isHi = labels.kind === 'label_hi';
   const name = (isHi ? vocabulary.subgoals : vocabulary.actions)[index];
@@ -36,7 +36,7 @@ export function moveTo(labels: Labels, index: number): Labels {
   return labels.kind === 'label_hi' ? hi.moveTo(labels, index) : lo.moveTo(labels, index);
 }
 
-/** The edits of the keys. */
+/** The edit of each command. */
 export const EDITS: Partial<Record<Command, (labels: Labels) => Labels>> = {
   accept: (labels) => (labels.kind === 'label_hi' ? hi.acceptSubgoal(labels) : lo.acceptState(labels)),
   'accept-rest': (labels) =>

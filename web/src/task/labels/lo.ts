@@ -43,7 +43,7 @@ export function lastState(labels: LoLabels): number {
   return labels.kind === 'label_lo' ? labels.actions.length : Math.max(0, labels.actions.length - 1);
 }
 
-/** Return the first state whose label is missing, or null if none is. */
+/** Return the first state whose label is missing, or null if no label is missing. */
 export function firstOpen(labels: LoLabels): number | null {
   const until = typeof labels.end === 'number' ? labels.end : labels.actions.length;
   const open = labels.actions.findIndex((action, state) => action === null && state < until);

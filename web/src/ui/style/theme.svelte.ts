@@ -27,7 +27,7 @@ class ThemeSwitch {
       if (theme === 'system') localStorage.removeItem(KEY);
       else localStorage.setItem(KEY, theme);
     } catch {
-      // Storage may be off; then the choice lasts until the page is reloaded.
+      // Storage may be off; then the choice lasts until the web app is reloaded.
     }
   }
 }

@@ -35,7 +35,7 @@ export function save(storage: Storage, outbox: Outbox): void {
   else storage.setItem(KEY, JSON.stringify(outbox));
 }
 
-/** Return the outbox that was kept; an empty one where the storage holds anything else. */
+/** Return the outbox that was kept; an empty one if the storage contains anything else. */
 export function load(storage: Storage): Outbox {
   try {
     const stored: unknown = JSON.parse(storage.getItem(KEY) ?? '[]');

@@ -1,4 +1,4 @@
-// The one sender of this tab. It outlives the work view: an answer is sent whatever view is open.
+// The one sender of this tab. It works in every view, so answers are sent even after the work view is left.
 import { api, unwrap } from '../../api/client';
 import { shell } from '../../ui/shell.svelte';
 import { AnswerSender, type SendAnswer } from './sender';
