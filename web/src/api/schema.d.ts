@@ -202,7 +202,7 @@ export interface paths {
         };
         /**
          * My Assignments
-         * @description List the caller's live assignments, so that a reloaded page can continue with them.
+         * @description List the caller's live assignments, so that a reloaded tab can continue with them.
          */
         get: operations["myAssignments"];
         put?: never;
@@ -228,7 +228,7 @@ export interface paths {
         put?: never;
         /**
          * Leave
-         * @description Say that a browser tab is closing. What it holds is released, and it gets no new leases.
+         * @description Close a browser tab: release its assignments, except those in `keep`, and refuse its lease requests.
          */
         post: operations["leave"];
         delete?: never;
@@ -248,7 +248,7 @@ export interface paths {
         put?: never;
         /**
          * Renew
-         * @description Renew the lease: it lasts its full length from now, up to the server's cap.
+         * @description Renew the lease: it lasts its full length from now, but not longer than the server's cap.
          */
         post: operations["renew"];
         delete?: never;
@@ -268,7 +268,7 @@ export interface paths {
         put?: never;
         /**
          * Release
-         * @description Give the query back without an answer. With `skip`, it is not offered to the caller again.
+         * @description Return the query to the queue without an answer. With `skip`, the caller does not get it again.
          */
         post: operations["release"];
         delete?: never;
@@ -288,7 +288,7 @@ export interface paths {
         put?: never;
         /**
          * Answer
-         * @description Answer. The answer is stored, charged and closed in one transaction, and acknowledged when it is on disk.
+         * @description Answer a query. One transaction stores and charges the answer; the reply comes when the answer is on disk.
          */
         post: operations["answer"];
         delete?: never;
@@ -308,7 +308,7 @@ export interface paths {
         put?: never;
         /**
          * Retract
-         * @description Take back an answer that the learner has not used. It is refunded, and its query is leased again.
+         * @description Retract an answer that the learner has not used: refund it, and lease its query to the caller again.
          */
         post: operations["retract"];
         delete?: never;
@@ -446,7 +446,7 @@ export interface paths {
         };
         /**
          * Stream Changes
-         * @description Stream a message when any run changed, at most once a second.
+         * @description Stream a message whenever any run has changed, at most one a second.
          */
         get: operations["streamChanges"];
         put?: never;
@@ -560,9 +560,9 @@ export interface paths {
         head?: never;
         /**
          * Patch User
-         * @description Change a user's role, deactivate or reactivate them.
+         * @description Change a user's role; deactivate or reactivate a user.
          *
-         *     Deactivation takes effect immediately: it ends the user's sessions, tokens, login links and leases. Answers stay.
+         *     Deactivation revokes sessions, tokens and login links, and releases leases, all immediately. Answers stay.
          */
         patch: operations["patchUser"];
         trace?: never;
@@ -804,7 +804,7 @@ export interface paths {
         };
         /**
          * List Gold
-         * @description List the run's gold queries, newest first, with how well annotators answered them.
+         * @description List the run's gold queries, newest first, each with its number of answers and their agreement.
          */
         get: operations["listGold"];
         put?: never;
@@ -891,7 +891,7 @@ export interface paths {
         };
         /**
          * Healthz
-         * @description Return that the process is alive.
+         * @description Report that the process is alive.
          */
         get: operations["healthz"];
         put?: never;
@@ -911,7 +911,7 @@ export interface paths {
         };
         /**
          * Readyz
-         * @description Return that the database answers and has this version's schema.
+         * @description Report that the database answers and has this version's tables.
          */
         get: operations["readyz"];
         put?: never;
@@ -2244,7 +2244,7 @@ export interface components {
             run?: string | null;
             /**
              * Defer
-             * @description Skip a query in its first seconds (this many) if another working annotator takes its kind. Only bots that help people need this.
+             * @description How long to leave new queries to other working annotators who take their kind, in seconds. Only bots that help people need this.
              * @default 0
              */
             defer: number;
@@ -3290,7 +3290,7 @@ export interface components {
             states: components["schemas"]["JsonValue"][];
             /**
              * Actions
-             * @description a_1 .. a_H, one less than the states.
+             * @description a_1 .. a_H, one fewer than the states.
              */
             actions: string[];
             /**
@@ -3316,7 +3316,7 @@ export interface components {
             states: components["schemas"]["JsonValue"][];
             /**
              * Actions
-             * @description a_1 .. a_H, one less than the states.
+             * @description a_1 .. a_H, one fewer than the states.
              */
             actions: string[];
             /**
@@ -4370,7 +4370,7 @@ export interface operations {
     getQuery: {
         parameters: {
             query?: {
-                /** @description Wait for a change at most so long, in seconds. */
+                /** @description The longest time to wait for a change, in seconds. */
                 wait?: number;
             };
             header?: never;
@@ -4441,7 +4441,7 @@ export interface operations {
         parameters: {
             query?: {
                 after?: number;
-                /** @description Wait for a change at most so long, in seconds. */
+                /** @description The longest time to wait for a change, in seconds. */
                 wait?: number;
                 limit?: number;
             };
@@ -5222,7 +5222,7 @@ export interface operations {
                 annotator?: string | null;
                 /** @description Only rows older than this one. */
                 before?: number | null;
-                /** @description The rows just newer than this one. */
+                /** @description The oldest rows that are newer than this one. */
                 after?: number | null;
                 limit?: number;
             };
@@ -5297,7 +5297,7 @@ export interface operations {
                 entry?: ("charge" | "refund") | null;
                 /** @description Only rows older than this one. */
                 before?: number | null;
-                /** @description The rows just newer than this one. */
+                /** @description The oldest rows that are newer than this one. */
                 after?: number | null;
                 limit?: number;
             };
