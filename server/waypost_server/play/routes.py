@@ -1,7 +1,7 @@
 """The route of the play socket, which connects the annotator of a demonstration with the learner's environment.
 
-Every refusal closes the socket with the code 4000 + its status and a reason, even before the first message, because a
-browser does not tell the web app why a handshake was refused.
+Every refusal of this route closes the socket with the code 4000 + its status and a reason, even before the first
+message, because a browser does not tell the web app why a handshake was refused.
 """
 
 import asyncio
