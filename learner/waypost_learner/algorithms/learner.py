@@ -157,7 +157,7 @@ class Learner:
         list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), self.due))
 
     def train_idle(self) -> None:
-        """Train the policies that the last `learn` trained on `idle` further rows each, while the expert answers."""
+        """Train the policies that the last `learn` trained again, each on the `idle` rows of its specification."""
         list(self._threads.map(lambda key: self.imitators[key].train_idle(self.data[key]), self.due))
         self.due = []
 

@@ -28,8 +28,8 @@ class Row:
 class Dataset:
     """A growing buffer of rows.
 
-    Observations are stored compressed; decompressing takes no longer than copying. Pictures shrink to a thirtieth, so
-    hundreds of demonstrations, each in every symmetry, fit into the memory of a laptop.
+    Observations are stored compressed; decompressing takes no longer than copying. A picture shrinks to a
+    thirtieth, so the rows of hundreds of demonstrations, in all symmetries of the maze, fit into a laptop's memory.
     """
 
     def __init__(self, observation_shape: tuple[int, ...]) -> None:

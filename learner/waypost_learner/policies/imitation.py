@@ -29,7 +29,7 @@ class TrainSpec:
     passes: int = 1  # over the buffer in each call of Train
     least: int = 1024  # fewest rows in each call: a small buffer is used for more passes
     most: int = 6144  # most rows in each call
-    idle: int = 0  # further rows, trained on while the expert answers the next query
+    idle: int = 0  # rows more, which are trained on while the expert answers the next query
     dropout: float = 0.5
     weight_decay: float = 0.0
     averaging: float | None = None  # decay of the moving average of the weights, which then acts; no average if None
@@ -100,7 +100,7 @@ class Policy:
         self._fit(data, min(max(self.spec.passes * len(data), self.spec.least), self.spec.most))
 
     def train_idle(self, data: Dataset) -> None:
-        """Train in the same way on `idle` further rows, while the expert answers the next query."""
+        """Train as `train` does, on as many more rows as `idle` says. The caller does this while the expert answers."""
         self._fit(data, self.spec.idle)
 
     def _fit(self, data: Dataset, n_rows: int) -> None:

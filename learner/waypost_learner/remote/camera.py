@@ -1,4 +1,4 @@
-"""Take pictures of the states in a query, for domains without a renderer in the web app (`Pictured`).
+"""Take pictures of the states in a query, for domains that draw their own states (`Pictured`).
 
 Pictures are taken when a query is asked, not during the rollout. The camera repeats the actions in its own environment;
 domains are deterministic, so it visits the same states. A frame is identified by the SHA-256 of its PNG.

@@ -2201,8 +2201,8 @@ export interface components {
          * LabelLoAnswer
          * @description a*_1 .. a*_H and omega*_1 .. omega*_{H+1} of one segment with H actions.
          *
-         *     The learner uses the labels up to the first true termination. From this state on, an action may be null, because no
-         *     action toward the subgoal is good after the subgoal is reached.
+         *     The learner uses the labels up to the first true termination. From the state of that termination on, an action may
+         *     be null, because no action toward the subgoal is good after the subgoal is reached.
          */
         LabelLoAnswer: {
             /**

@@ -34,7 +34,7 @@ class OperationCosts:
 
 
 def operation_costs(cell: Cell, prices: wire.Prices) -> OperationCosts:
-    """Return the costs of the longest possible answers, given the horizons of the cell."""
+    """Return the cost of each operation of the theorems: of its longest answer under the cell's horizons."""
 
     def units(answer: wire.Answer) -> float:
         return to_units(pricing.cost(answer, prices).units)
