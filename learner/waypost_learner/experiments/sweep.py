@@ -35,7 +35,7 @@ class Place:
     patience: float = 300.0  # seconds to keep trying when the server does not answer
 
     def connect(self) -> AbstractContextManager[Connection]:
-        """Return a connection to the store, or to the server if there is no store. The oracle answers in this process."""
+        """Return a connection to the store; to the server if there is no store. The oracle answers in this process."""
         if self.store is not None:
             return embedded(self.store)
         return connected(self.server, self.token, answers_here=True, patience=self.patience)
