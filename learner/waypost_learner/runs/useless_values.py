@@ -39,12 +39,15 @@ def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str
     checks = {
         "warm_start": (algorithm.interactive, f"{name} has no warm start"),
         "h_hi": (not levels.flat, f"{name} has no subgoals"),
-        "repeat_penalty": (not levels.flat and structured, _hierarchy_on_structure(name, domain.name)),
+        "repeat_penalty": (
+            not levels.flat and structured,
+            f"{name} has no subgoals, or the domain {domain.name!r} declares no places",
+        ),
         "choosing": (levels.imitating, f"{name} chooses epsilon-greedily (dqn.epsilon)"),
         "choosing.termination_threshold": (not levels.flat and not levels.q_lo, f"{name} has no beta_g"),
         "network": (planned < learner.learned.keys(), "all its networks plan (planning)"),
-        "train_hi": (hi and not levels.q_lo, f"{name} does not train a mu with it"),
-        "train_hi_hybrid": (hi and levels.q_lo, f"{name} does not train a mu with it"),
+        "train_hi": (hi and not levels.q_lo, f"{name} has no mu that imitates, or trains it with train_hi_hybrid"),
+        "train_hi_hybrid": (hi and levels.q_lo, f"{name} has no mu that imitates beside Q-functions"),
         "train_lo": (not levels.flat and not levels.q_lo, f"{name} has no pi_g that imitates"),
         "train_flat": (levels.flat and not levels.q_lo, f"{name} has no flat policy that imitates"),
         "dqn": (levels.reinforced, f"{name} has no Q-function"),
@@ -59,15 +62,14 @@ def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str
         ),
         "views": (structured, f"the domain {domain.name!r} declares no views"),
         "planning": (bool(planned), f"no policy of {name} has a view of the domain {domain.name!r} that shows places"),
-        "relabeling": (hi and structured, _hierarchy_on_structure(name, domain.name)),
+        "relabeling": (
+            hi and structured,
+            f"{name} has no mu that imitates, or the domain {domain.name!r} declares no relabeling",
+        ),
         "monitoring.rate": (preset.monitoring.share < 1, "monitoring.share is 1"),
         "monitoring.confidence": (preset.monitoring.share < 1, "monitoring.share is 1"),
     }
     return {value: reason for value, (has_effect, reason) in checks.items() if not has_effect}
-
-
-def _hierarchy_on_structure(algorithm: str, domain: str) -> str:
-    return f"{algorithm} has no mu that imitates or that repeats subgoals, or the domain {domain!r} has no structure"
 
 
 def _leaves(changes: Changes, above: str = "") -> Iterator[str]:
