@@ -35,7 +35,7 @@ RUNS = [corridor(algorithm=algorithm, seed=seed, **VALUES) for seed in (0, 1) fo
 SCRIPT = """
 import sys
 from pathlib import Path
-from learner.experiments.sweep import Place, sweep
+from waypost_learner.experiments.sweep import Place, sweep
 from tests.learner.experiments.test_sweep import RUNS
 
 if __name__ == "__main__":
@@ -45,7 +45,7 @@ if __name__ == "__main__":
 RAY_SCRIPT = """
 import sys
 from pathlib import Path
-from learner.experiments.sweep import Place, sweep
+from waypost_learner.experiments.sweep import Place, sweep
 from tests.learner.experiments.test_sweep import RUNS
 
 if __name__ == "__main__":
