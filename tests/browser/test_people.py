@@ -57,7 +57,7 @@ def test_everybody_has_a_page_of_their_own(open_page: Open, complaints: Complain
     complaints.expect("403")
     page = open_page("/people", role="annotator")
     expect(page.get_by_role("heading", name="This is for administrators")).to_be_visible()
-    page.get_by_role("link", name="your own page").click()
+    page.get_by_role("link", name="your own account").click()
     page.get_by_label("What it is for").fill("my laptop")
     page.get_by_role("button", name="Create a token").press("Enter")
     token = shown_once(page, "New API token")
