@@ -216,7 +216,7 @@ def practice(
 ) -> None:
     """Write practice queries with the oracle's right answers. `WAYPOST_PRACTICE=FILE` makes a server offer them."""
     with learner_errors():
-        from waypost.domain import find_domain
+        from waypost.domains import find_domain
         from waypost_learner.experts.practice import practice as made
 
         found = made(find_domain(domain), instances, seed)

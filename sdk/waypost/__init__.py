@@ -2,7 +2,7 @@
 
     from waypost import Client, wire
 
-The contract for your own domain is `waypost.domain`, which needs numpy and gymnasium (`pip install waypost[learner]`).
+The contract for your own domain is `waypost.domains`, which needs numpy and gymnasium (`pip install waypost[learner]`).
 """
 
 from waypost import prices, wire

@@ -6,7 +6,7 @@ from playwright.sync_api import Page
 
 from waypost import wire
 from waypost.client import Client
-from waypost.domain import find_domain
+from waypost.domains import find_domain
 from waypost_learner.experts.oracle import OracleExpert
 
 ARROWS = {"up": "ArrowUp", "down": "ArrowDown", "left": "ArrowLeft", "right": "ArrowRight"}

@@ -20,6 +20,6 @@ def test_a_client_program_needs_no_web_framework_no_database_and_no_numerics() -
 
 def test_the_contract_for_domains_needs_neither_the_service_nor_pytorch() -> None:
     heavy = {"fastapi", "sqlalchemy", "torch", "waypost_server", "waypost_learner"}
-    code = f"import sys, waypost.domain; print(sorted({heavy!r} & set(sys.modules)))"
+    code = f"import sys, waypost.domains; print(sorted({heavy!r} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from waypost.domain import Domain, Structured, Symmetry
+from waypost.domains import Domain, Structured, Symmetry
 from waypost.trajectory import Trajectory
 from waypost_learner.policies.datasets import Dataset
 from waypost_learner.policies.dqn import QFunction

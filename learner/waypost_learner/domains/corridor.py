@@ -15,7 +15,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from waypost.domain import Horizons, InstanceSets, Symmetry
+from waypost.domains import Horizons, InstanceSets, Symmetry
 from waypost.trajectory import Outcome
 
 CELLS = 13
@@ -123,7 +123,7 @@ def _end_cell(instance: Any, origin: int, subgoal: int) -> int:
 
 
 class CorridorDomain:
-    """The corridor as a `waypost.domain.Domain`."""
+    """The corridor as a `waypost.domains.Domain`."""
 
     name = "corridor"
     subgoals = ("west", "east", "target")

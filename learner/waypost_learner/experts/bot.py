@@ -12,7 +12,7 @@ import numpy as np
 
 from waypost import wire
 from waypost.client import Client, Refused
-from waypost.domain import Domain, find_domain
+from waypost.domains import Domain, find_domain
 from waypost_learner.experts.oracle import OracleExpert
 
 _LOST = frozenset({"lease-expired", "lease-ended", "query-cancelled"})

@@ -2,7 +2,7 @@
 
 from waypost import wire
 from waypost.client import Client
-from waypost.domain import find_domain
+from waypost.domains import find_domain
 from waypost_learner.experts.solutions import solve
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
-from waypost.domain import Domain
+from waypost.domains import Domain
 from waypost.trajectory import Action
 from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.rollout.simulator import HeadStart, Simulator

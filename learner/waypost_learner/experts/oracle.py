@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from waypost import wire
-from waypost.domain import Domain
+from waypost.domains import Domain
 from waypost.trajectory import Action
 from waypost_learner.experts.solutions import solve
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from waypost import wire
-from waypost.domain import Domain
+from waypost.domains import Domain
 from waypost.trajectory import Segment, Trajectory, n_steps
 from waypost_learner.algorithms.queries import InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, Query
 from waypost_learner.experts.solutions import solve

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from waypost import wire
-from waypost.domain import Domain, Oracle
+from waypost.domains import Domain, Oracle
 
 
 @dataclass(frozen=True)

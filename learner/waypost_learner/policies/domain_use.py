@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class DomainUse:
-    """Which parts of a domain's declared symmetries and structure (`waypost.domain`) a learner uses.
+    """Which parts of a domain's declared symmetries and structure (`waypost.domains`) a learner uses.
 
     A value has no effect in a domain without the corresponding declaration.
     """

@@ -7,7 +7,7 @@ buffer entries by policy; `transformed_rows` and `transformed_transitions` apply
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from waypost.domain import Structured, Symmetry
+from waypost.domains import Structured, Symmetry
 from waypost.trajectory import Action, Segment, Subgoal, Trajectory
 from waypost_learner.policies.datasets import UNLABELED, Row
 from waypost_learner.rollout.experience import Transition

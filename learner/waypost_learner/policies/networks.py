@@ -6,7 +6,7 @@ import torch
 from torch import nn
 from torch.nn import functional
 
-from waypost.domain import Grid
+from waypost.domains import Grid
 
 
 @dataclass(frozen=True)

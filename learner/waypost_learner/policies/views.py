@@ -1,6 +1,6 @@
 """Determines which part of an observation each policy sees, and which network computes its outputs.
 
-This depends on the preset (`DomainUse`) and on the domain's declarations (`waypost.domain.Structured`).
+This depends on the preset (`DomainUse`) and on the domain's declarations (`waypost.domains.Structured`).
 """
 
 from collections.abc import Callable, Sequence
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from waypost.domain import Domain, Structured, Symmetry, View
+from waypost.domains import Domain, Structured, Symmetry, View
 from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec
 from waypost_learner.rollout.policy_keys import PolicyKey, pi

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from waypost.domain import Domain, Pictured
+from waypost.domains import Domain, Pictured
 from waypost.trajectory import Action, Segment
 
 

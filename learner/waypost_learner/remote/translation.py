@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from waypost import wire
-from waypost.domain import Domain
+from waypost.domains import Domain
 from waypost.trajectory import Segment, Trajectory
 from waypost_learner.algorithms.queries import (
     Answer,

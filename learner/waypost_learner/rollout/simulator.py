@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from waypost.domain import Domain
+from waypost.domains import Domain
 from waypost.trajectory import Action, Outcome, State, Subgoal
 
 HeadStart = Callable[[Any], Sequence[Action]]

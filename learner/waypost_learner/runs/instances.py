@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from waypost.domain import InstanceSets
+from waypost.domains import InstanceSets
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.rollout import streams
 from waypost_learner.runs.evaluation import attempt

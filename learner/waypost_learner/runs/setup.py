@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from waypost.domain import InstanceSets, find_domain
+from waypost.domains import InstanceSets, find_domain
 from waypost_learner.algorithms import ALGORITHMS, Algorithm, find_algorithm
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.experts.head_start import head_start

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from waypost.domain import Structured
+from waypost.domains import Structured
 from waypost_learner.algorithms import Algorithm
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.policies.networks import PlanningSpec

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.learner.kit import examples
 
-from waypost.domain import find_domain
+from waypost.domains import find_domain
 from waypost_learner.domains.corridor import CELLS, EAST, MAX_STEPS, WEST, Corridor, CorridorDomain, CorridorEnv, moved
 
 domain = CorridorDomain()

@@ -6,7 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from tests.learner.kit import examples, free_cells, mazes, neighbours, solved
 
-from waypost.domain import Grid, Symmetry, View
+from waypost.domains import Grid, Symmetry, View
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.env import AGENT, TRAIL, MazeEnv
 from waypost_learner.domains.maze.maze import ROOMS, Cell, Maze, moved, room_of, walls

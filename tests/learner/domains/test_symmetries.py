@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.learner.kit import TINY, drawn_mazes, examples, mazes, random_labels, reachable_cells
 
-from waypost.domain import Domain, Symmetry
+from waypost.domains import Domain, Symmetry
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import CELLS, Corridor, CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain

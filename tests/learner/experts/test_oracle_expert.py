@@ -12,7 +12,7 @@ from tests.learner.kit import drawn_mazes, examples, solved
 
 from waypost import prices as pricing
 from waypost import wire
-from waypost.domain import find_domain
+from waypost.domains import find_domain
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.env import MazeEnv
 from waypost_learner.domains.maze.generator import maze_set

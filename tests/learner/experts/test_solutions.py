@@ -22,7 +22,7 @@ from tests.learner.experts.test_oracle_expert import (
 from typer.testing import CliRunner
 
 from waypost import wire
-from waypost.domain import find_domain
+from waypost.domains import find_domain
 from waypost_learner.cli import app
 from waypost_learner.experts.gold import make_gold
 from waypost_learner.experts.practice import practice

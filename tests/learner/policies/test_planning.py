@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from tests.learner.kit import STEPS, examples
 
-from waypost.domain import Grid
+from waypost.domains import Grid
 from waypost_learner.policies.datasets import Dataset, Row
 from waypost_learner.policies.imitation import Policy, TrainSpec
 from waypost_learner.policies.networks import PlanningNet, PlanningSpec, build_network

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.learner.kit import GREEDY, TINY, examples
 
-from waypost.domain import Horizons
+from waypost.domains import Horizons
 from waypost.trajectory import Trajectory, n_steps
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import Corridor, CorridorDomain

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from waypost.domain import Horizons, InstanceSets
+from waypost.domains import Horizons, InstanceSets
 from waypost.trajectory import Outcome, Subgoal
 from waypost_learner.domains.maze.env import MAX_STEPS, MazeEnv
 from waypost_learner.domains.maze.files import load_mazes
@@ -26,7 +26,7 @@ from waypost_learner.domains.maze.views import FLAT_VIEW, HI_VIEW, LO_VIEW
 
 
 class MazeDomain:
-    """The maze as a `waypost.domain.Domain` that also describes its structure (`waypost.domain.Structured`).
+    """The maze as a `waypost.domains.Domain` that also describes its structure (`waypost.domains.Structured`).
 
     A subgoal leads to the next room in a direction, or to the target.
     """

@@ -66,7 +66,7 @@ class _Paths:
 
 
 class MazeOracle:
-    """The maze's expert (`waypost.domain.Oracle`)."""
+    """The maze's expert (`waypost.domains.Oracle`)."""
 
     def __init__(self) -> None:
         self._cached = lru_cache(maxsize=MAZES_CACHED)(

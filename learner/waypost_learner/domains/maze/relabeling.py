@@ -10,7 +10,7 @@ from itertools import groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from waypost.domain import Relabeled
+from waypost.domains import Relabeled
 from waypost.trajectory import Action, Segment, State, Subgoal, Trajectory
 from waypost_learner.domains.maze.env import AGENT, LAVA, TARGET, TRAIL
 from waypost_learner.domains.maze.maze import GO_TO_TARGET, MOVES, PITCH, Cell, Room, cell_of, room_beside, room_of

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from waypost.domain import Symmetry
+from waypost.domains import Symmetry
 from waypost_learner.domains.maze.maze import GO_TO_TARGET, MOVES
 
 

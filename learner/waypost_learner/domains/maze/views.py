@@ -6,7 +6,7 @@ Views are not part of the paper, and the `paper` preset does not use them.
 import numpy as np
 from numpy.typing import NDArray
 
-from waypost.domain import Grid, View
+from waypost.domains import Grid, View
 from waypost_learner.domains.maze.env import LAVA, TRAIL
 from waypost_learner.domains.maze.maze import MOVES, PITCH, ROOMS, SIZE, Cell, walls
 

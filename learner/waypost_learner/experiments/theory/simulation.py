@@ -14,7 +14,7 @@ import numpy as np
 
 from waypost import prices as pricing
 from waypost import wire
-from waypost.domain import Domain
+from waypost.domains import Domain
 from waypost.prices import to_units
 from waypost.trajectory import Segment, State, Trajectory
 from waypost_learner.algorithms.flat_dagger import flat_dagger

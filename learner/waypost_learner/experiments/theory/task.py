@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from waypost.domain import Horizons
+from waypost.domains import Horizons
 from waypost.trajectory import Action, State, Subgoal
 from waypost_learner.experiments.theory.classes import N_ACTIONS, N_POSITIONS, Cell, Classes
 
