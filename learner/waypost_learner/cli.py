@@ -93,7 +93,9 @@ def train(
         config = TrainConfig(
             algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start, values
         )
-        set_up(config, threads)  # refuses a wrong configuration before the store is created
+        setup = set_up(config, threads)  # refuses a wrong configuration before the store is created
+        for part, instead in setup.missing.items():
+            typer.echo(f"The domain {domain!r} provides no {part}. {instead}", err=True)
         options = RunOptions(name, budget, resume, checkpoint_folder(checkpoints, store, server), threads)
         with ExitStack() as stack:
             connection = stack.enter_context(
@@ -137,6 +139,9 @@ def oracle(
     token: TokenOption = "",
     run: Annotated[str | None, typer.Option(help="Answer only this run's queries.")] = None,
     kinds: Annotated[str | None, typer.Option(help="Answer only these kinds, comma-separated.")] = None,
+    domain: Annotated[
+        str | None, typer.Option(help="A domain that is not installed, MODULE:ATTRIBUTE, whose queries to answer.")
+    ] = None,
     error_rate: Annotated[float, typer.Option(min=0, max=1, help="Share of answers with random labels.")] = 0.0,
     seconds: Annotated[float, typer.Option(min=0, help="Seconds to wait before each answer.")] = 0.0,
     defer: Annotated[float, typer.Option(min=0, help="Seconds for which to leave queries to people.")] = 0.0,
@@ -147,10 +152,12 @@ def oracle(
     chosen = _kinds(kinds)
     with learner_errors():
         from waypost.client import Client
+        from waypost.domains import find_domain
         from waypost_learner.experts.bot import Bot, BotSettings
 
         client = Client(server, needed(token), patience=patience)
-        bot = Bot(client, BotSettings(run, chosen, error_rate, seconds, defer, seed))
+        domains = [] if domain is None else [find_domain(domain)]
+        bot = Bot(client, BotSettings(run, chosen, error_rate, seconds, defer, seed), domains)
         answers, units = 0, 0.0
 
         console = Console(stderr=True)
@@ -266,8 +273,9 @@ class _TrainingProgress:
 
     def episode(self, result: EpisodeResult, units: float) -> None:
         del units
-        self._tests = [*self._tests, bool(result.test_success)][-100:]
-        rate = sum(self._tests) / len(self._tests)
+        if result.test_success is not None:
+            self._tests = [*self._tests, result.test_success][-100:]
+        rate = sum(self._tests) / max(len(self._tests), 1)
         self._bar.update(self._task, advance=1, description=f"success {rate:.0%} (trailing {len(self._tests)})")
 
 

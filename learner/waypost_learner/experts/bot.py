@@ -5,7 +5,7 @@ valid: its labels are drawn at random.
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,12 +37,12 @@ class Bot:
     Args:
         client: the client of a user who may answer.
         settings: which queries to answer, and how; if None, answer all queries, correctly and at once.
+        domains: domains that are not installed; others are found by their names.
     """
 
-    def __init__(self, client: Client, settings: BotSettings | None = None) -> None:
+    def __init__(self, client: Client, settings: BotSettings | None = None, domains: Sequence[Domain] = ()) -> None:
         self._client, self._settings = client, settings or BotSettings()
-        self._experts: dict[str, OracleExpert] = {}
-        self._domains: dict[str, Domain] = {}
+        self._experts = {domain.name: OracleExpert(domain) for domain in domains}
         self._rng = np.random.default_rng(self._settings.seed)
 
     def work(self, wait: float = 20.0, on_answer: Callable[[wire.Receipt], None] = lambda _: None) -> None:
