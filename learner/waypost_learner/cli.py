@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
-from waypost.wire import EpisodeResult, Receipt, Run, RunPatch
+from waypost.wire import Assignment, EpisodeResult, Receipt, Run, RunPatch
 from waypost_learner.commands import (
     JsonOption,
     PatienceOption,
@@ -35,6 +35,8 @@ app = typer.Typer(
 )
 app.add_typer(server_cli.app)
 app.add_typer(experiments_cli.app)
+domain_app = typer.Typer(no_args_is_help=True, help="Domains: the installed ones, and checks of your own.")
+app.add_typer(domain_app, name="domain")
 
 StoreOption = Annotated[
     Path | None, typer.Option("--store", help="The SQLite file; it is created if it does not exist.")
@@ -157,7 +159,7 @@ def oracle(
 
         client = Client(server, needed(token), patience=patience)
         domains = [] if domain is None else [find_domain(domain)]
-        bot = Bot(client, BotSettings(run, chosen, error_rate, seconds, defer, seed), domains)
+        bot = Bot(client, BotSettings(run, chosen, error_rate, seconds, defer, seed), domains, _report_failure)
         answers, units = 0, 0.0
 
         console = Console(stderr=True)
@@ -231,6 +233,37 @@ def practice(
     typer.echo(f"The practice queries are in {file}.")
 
 
+@domain_app.command("list")
+def list_domains() -> None:
+    """List the installed domains."""
+    with learner_errors():
+        from waypost.domains import installed
+
+        for name in installed():
+            typer.echo(name)
+
+
+@domain_app.command("check")
+def check_domain(
+    name: Annotated[str, typer.Argument(help="The domain's name, or MODULE:ATTRIBUTE if it is not installed.")],
+    as_json: JsonOption = False,
+) -> None:
+    """Check that a domain keeps the contract, and explain what fails. The exit status is 1 if something fails."""
+    with learner_errors():
+        from waypost.domains.conformance import check_domain as check
+
+        results = check(name)
+    if as_json:
+        typer.echo(json.dumps([vars(result) for result in results]))
+    else:
+        for result in results:
+            typer.echo(f"{'FAILS' if result.failures else 'ok   '}  {result.check}")
+            for failure in result.failures:
+                typer.echo(f"       {failure}")
+    if results[-1].failures:
+        raise typer.Exit(1)
+
+
 def main() -> None:
     """Run `waypost`."""
     app()
@@ -277,6 +310,12 @@ class _TrainingProgress:
             self._tests = [*self._tests, result.test_success][-100:]
         rate = sum(self._tests) / max(len(self._tests), 1)
         self._bar.update(self._task, advance=1, description=f"success {rate:.0%} (trailing {len(self._tests)})")
+
+
+def _report_failure(assignment: Assignment, error: Exception) -> None:
+    """Say which query the bot left to others, and why."""
+    query = assignment.query
+    typer.echo(f"Query {query.id} of run {assignment.run.id} is left to others: {error}", err=True)
 
 
 def _print_summary(summary: dict[str, Any], as_json: bool) -> None:

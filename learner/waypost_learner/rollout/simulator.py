@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from waypost.domains import Domain, Ending, Pictured, Restorable, replay_of
+from waypost.domains import Domain, DomainFailed, Ending, Pictured, Restorable, replay_of
+from waypost.domains.failures import explained
 from waypost.trajectory import Action, Outcome, State, Subgoal
 
 HeadStart = Callable[[Any], Sequence[Action]]
@@ -40,7 +41,10 @@ class Simulator:
 
     def reset(self, instance: Any) -> State:
         """Start an instance, carry out the head start without counting its steps, and return the start state."""
-        observation, _ = self._env.reset(options={"instance": instance})
+        try:
+            observation, _ = self._env.reset(options={"instance": instance})
+        except Exception as error:
+            raise self._failed("reset", error) from error
         self.instance, self.ended, self.final, self.steps = instance, False, False, 0
         state = self._state(observation)
         for action in self._head_start(instance) if self._head_start else ():
@@ -53,10 +57,14 @@ class Simulator:
 
         Raises:
             RuntimeError: the episode has ended.
+        DomainFailed: the domain's code failed; the message says where.
         """
         if self.ended:
             raise RuntimeError("the episode has ended: call reset() before the next step()")
-        observation, reward, terminated, truncated, _ = self._env.step(np.int64(action))
+        try:
+            observation, reward, terminated, truncated, _ = self._env.step(np.int64(action))
+        except Exception as error:
+            raise self._failed("step", error) from error
         self.reward, self.final, self.ended = float(reward), terminated, terminated or truncated
         self.steps += 1
         return self._state(observation)
@@ -89,12 +97,23 @@ class Simulator:
         return self.domain.succeeded(self._env)
 
     def _state(self, observation: Any) -> State:
-        return State(
-            observation if observation.dtype == np.uint8 else np.asarray(observation, np.float32),
-            self.domain.state_view(self._env),
-            self._restorable.snapshot(self._env) if self._restorable else None,
-            self._pictured.frame(self._env) if self._pictured else None,
-        )
+        if np.shape(observation) != self.domain.observation_shape:
+            raise DomainFailed(
+                f"the domain {self.domain.name!r} returned an observation of the shape {np.shape(observation)}; "
+                f"its observation_shape is {self.domain.observation_shape}; make them equal"
+            )
+        try:
+            return State(
+                observation if observation.dtype == np.uint8 else np.asarray(observation, np.float32),
+                self.domain.state_view(self._env),
+                self._restorable.snapshot(self._env) if self._restorable else None,
+                self._pictured.frame(self._env) if self._pictured else None,
+            )
+        except Exception as error:
+            raise self._failed("state_view, snapshot or frame", error) from error
+
+    def _failed(self, what: str, error: Exception) -> DomainFailed:
+        return DomainFailed(f"the domain {self.domain.name!r} failed: {explained(what, error)}")
 
 
 @dataclass(frozen=True, eq=False)

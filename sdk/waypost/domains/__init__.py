@@ -1,7 +1,8 @@
 """The contract of a domain, for authors of plug-ins. It needs numpy and gymnasium (`pip install waypost[learner]`)."""
 
 from waypost.domains.contract import Domain, Horizons, InstanceSets
-from waypost.domains.find import find_domain
+from waypost.domains.failures import DomainFailed
+from waypost.domains.find import find_domain, installed
 from waypost.domains.parts import (
     Ending,
     Grid,
@@ -32,6 +33,7 @@ from waypost.domains.parts import (
 
 __all__ = [
     "Domain",
+    "DomainFailed",
     "Ending",
     "Grid",
     "Horizons",
@@ -55,6 +57,7 @@ __all__ = [
     "View",
     "Viewed",
     "find_domain",
+    "installed",
     "interval_of_tests",
     "oracle_of",
     "renderer_of",

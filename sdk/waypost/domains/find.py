@@ -2,7 +2,7 @@
 
 import importlib
 import sys
-from importlib.metadata import entry_points
+from importlib.metadata import EntryPoints, entry_points
 from pathlib import Path
 
 from waypost.domains.contract import MEMBERS, Domain
@@ -23,13 +23,22 @@ def find_domain(name: str) -> Domain:
     """
     if ":" in name:
         return _domain_at(name)
-    found = {entry.name: entry for entry in entry_points(group=GROUP)}
+    found = {entry.name: entry for entry in _entries()}
     if name not in found:
         raise ValueError(
             f"there is no domain {name!r}; the installed domains are: {', '.join(sorted(found))}. "
             "Write MODULE:ATTRIBUTE for a domain that is not installed"
         )
     return _made(found[name].load(), name)
+
+
+def installed() -> list[str]:
+    """Return the names of the installed domains."""
+    return sorted(entry.name for entry in _entries())
+
+
+def _entries() -> EntryPoints:
+    return entry_points(group=GROUP)
 
 
 def _domain_at(place: str) -> Domain:
