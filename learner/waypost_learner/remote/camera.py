@@ -4,15 +4,13 @@ Pictures are taken when a query is asked, not during the rollout. The camera rep
 domains are deterministic, so it visits the same states. A frame is identified by the SHA-256 of its PNG.
 """
 
-import hashlib
-import io
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
-from PIL import Image
 
 from waypost.domains import Domain, Pictured
+from waypost.runs.pictures import digest, png
 from waypost.trajectory import Action, Segment
 
 
@@ -57,9 +55,9 @@ class Camera:
     def _take(self, actions: tuple[Action, ...]) -> None:
         for n, pixels in enumerate(self._along(actions)):
             if actions[:n] not in self._hashes:
-                png = encoded(pixels)
-                self._hashes[actions[:n]] = hashlib.sha256(png).hexdigest()
-                self._new[self._hashes[actions[:n]]] = png
+                file = png(pixels)
+                self._hashes[actions[:n]] = digest(file)
+                self._new[digest(file)] = file
 
     def _along(self, actions: Sequence[Action]) -> Iterator[Any]:
         """Yield the picture of each state, uint8[rows, columns, 3]."""
@@ -70,10 +68,3 @@ class Camera:
         for action in actions:
             self._env.step(np.int64(action))
             yield self._pictured.frame(self._env)
-
-
-def encoded(pixels: Any) -> bytes:
-    """Return a picture uint8[rows, columns, 3] as a PNG file."""
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, "PNG")
-    return file.getvalue()
