@@ -4,23 +4,12 @@ import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-from tests.acceptance.processes import ServerProcess, bot, free_port
+from tests.acceptance.processes import ServerProcess, bot
 from tests.repository.kit import ROOT
 
-pytest.importorskip("stable_baselines3")
-
 SCRIPT = ROOT / "examples" / "stable_baselines3" / "train.py"
-
-
-@pytest.fixture
-def server(tmp_path: Path):
-    process = ServerProcess(tmp_path, free_port())
-    process.start()
-    yield process
-    process.stop()
 
 
 def train(server: ServerProcess, budget: int) -> subprocess.CompletedProcess[str]:
