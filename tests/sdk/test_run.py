@@ -22,12 +22,13 @@ BACK = waypost.Segment(states=[2, 1], actions=["left"], subgoal="key")
 
 
 class Service:
-    """A server with one learner and one annotator."""
+    """A learner's script and an annotator, for one test."""
 
-    def __init__(self, served: serving.Served) -> None:
-        self._served = served
+    def __init__(self, served: serving.Served, name: str) -> None:
+        self._served, self.name = served, name
         self.url, self.token = served.url, self._token("lea", "learner")
         self._clients = list[waypost.Client]()
+        self._runs = list[waypost.Run]()
         self.annotator = self.client(self._token("abe", "annotator"))
 
     def _token(self, name: str, role: wire.Role) -> str:
@@ -42,11 +43,14 @@ class Service:
         for client in self._clients:
             client.close()
 
-    def start(self, name: str = "a run", **more: Any) -> waypost.Run:
-        return waypost.start_run(name, client=self.client(self.token), **(NAMES | more))
+    def start(self, name: str | None = None, **more: Any) -> waypost.Run:
+        run = waypost.start_run(name or self.name, client=self.client(self.token), **(NAMES | more))
+        self._runs.append(run)
+        return run
 
     def lease(self, wait: float = 10) -> wire.Assignment:
-        assignment = self.annotator.lease(wire.Lease(wait=wait))
+        """Lease the next query of the newest run."""
+        assignment = self.annotator.lease(wire.Lease(wait=wait, run=self._runs[-1].id))
         assert assignment is not None, "no query is open"
         return assignment
 
@@ -58,9 +62,17 @@ class Service:
             self.annotator.answer(assignment, wire.InspectAnswer(kind=kind, verdict=verdict))
 
 
+@pytest.fixture(scope="module")
+def served(tmp_path_factory) -> Iterator[serving.Served]:
+    """One server for all tests; each test has runs of its own."""
+    store = tmp_path_factory.mktemp("store") / "waypost.db"
+    with serving.background(Settings(database=f"sqlite:///{store}")) as served:
+        yield served
+
+
 @pytest.fixture
-def service(start_server, sqlite_url) -> Iterator[Service]:
-    service = Service(start_server(Settings(database=sqlite_url)))
+def service(served, tmp_path) -> Iterator[Service]:
+    service = Service(served, f"run of {tmp_path.name}")
     yield service
     service.close()
 
