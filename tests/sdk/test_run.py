@@ -164,7 +164,7 @@ def test_answers_come_with_their_queries_in_the_order_in_which_they_are_given(se
     run.ask(inspection(3))
     assert list(run.answers(wait=0)) == []
     service.answer(verdict="fail")
-    ((query, answer),) = run.answers(wait=10)
+    query, answer = next(run.answers(wait=10))
     assert (query.episode, answer) == (3, False)
 
 

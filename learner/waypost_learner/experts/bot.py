@@ -72,7 +72,12 @@ class Bot:
     def _answer(self, assignment: wire.Assignment, following: wire.Lease) -> wire.Receipt | None:
         if self._settings.seconds:
             time.sleep(self._settings.seconds)
-        answer = self._expert(assignment.run.vocabulary.domain)(assignment.query.ask)
+        try:
+            expert = self._expert(assignment.run.vocabulary.domain)
+        except ValueError as reason:  # this domain is not installed here, or has no oracle
+            self._client.release(assignment, str(reason)[:500], skip=True)
+            return None
+        answer = expert(assignment.query.ask)
         if self._rng.random() < self._settings.error_rate:
             answer = self._mistaken(answer, assignment.run.vocabulary)
         try:
