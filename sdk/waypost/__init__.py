@@ -1,6 +1,8 @@
-"""The public package of Waypost: the typed client, the wire messages, the prices, and domains of your own.
+"""The public package of Waypost: runs of training scripts, domains of your own, the typed client, the wire messages.
 
-    from waypost import Client, wire
+    import waypost
+
+    run = waypost.start_run("taxi", actions=["north", "south"])
 
 `waypost.domain(...)` makes a domain from a Gymnasium environment; it needs numpy and gymnasium
 (`pip install waypost[learner]`). The contract of domains is `waypost.domains`.
@@ -9,12 +11,35 @@
 from typing import TYPE_CHECKING, Any
 
 from waypost import prices, wire
-from waypost.client import Client, Refused, Unreachable
+from waypost.client import BudgetExhausted, Client, Refused, Unreachable
+from waypost.runs.asked import AskedQuery, QueryCancelled
+from waypost.runs.queries import HierDemo, InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, Segment
+from waypost.runs.run import Run
+from waypost.runs.start import start_run
 
 if TYPE_CHECKING:
     from waypost.domains.environment import domain
 
-__all__ = ["Client", "Refused", "Unreachable", "domain", "prices", "wire"]
+__all__ = [
+    "AskedQuery",
+    "BudgetExhausted",
+    "Client",
+    "HierDemo",
+    "InspectFull",
+    "InspectLo",
+    "LabelFull",
+    "LabelHi",
+    "LabelLo",
+    "QueryCancelled",
+    "Refused",
+    "Run",
+    "Segment",
+    "Unreachable",
+    "domain",
+    "prices",
+    "start_run",
+    "wire",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -21,6 +21,7 @@ M = TypeVar("M", bound=BaseModel)
 PATIENCE_SECONDS = 300.0
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.05, 2.0
 _HASHES_AT_ONCE = 1_000
+_QUERIES_AT_ONCE = 500
 _UPLOAD_BYTES = 2 * 2**20  # of frames in one request body; a single larger frame is sent alone
 _CONNECT_SECONDS = 5.0
 _LARGEST_MESSAGE = 4 * 2**20  # on a play socket; the server has the same limit
@@ -38,6 +39,10 @@ class Refused(Exception):
     def name(self) -> str:
         """The stable name of the problem, such as `lease-expired`."""
         return self.problem.type.rsplit("/", 1)[-1]
+
+
+class BudgetExhausted(Refused):
+    """The run's budget has too few units left for the queries. Raise the budget, or ask less."""
 
 
 class Unreachable(Exception):
@@ -80,9 +85,9 @@ class Client:
         """Create a run."""
         return self._call(wire.Run, "POST", "/runs", run)
 
-    def runs(self) -> list[wire.Run]:
-        """Return at most a thousand runs, newest first."""
-        return self._call(wire.RunList, "GET", "/runs", params={"limit": 1_000}).runs
+    def runs(self, text: str = "") -> list[wire.Run]:
+        """Return at most a thousand runs, newest first, with these words in the name, algorithm, domain or id."""
+        return self._call(wire.RunList, "GET", "/runs", params={"limit": 1_000, "text": text}).runs
 
     def run(self, run: str) -> wire.Run:
         """Return a run."""
@@ -105,6 +110,16 @@ class Client:
     def ask(self, run: str, queries: Sequence[wire.Ask]) -> list[wire.Query]:
         """Ask queries. A query that was asked before is returned with its answer, if it has one."""
         return self._call(wire.Asked, "POST", f"/runs/{run}/queries", wire.AskList(queries=list(queries))).queries
+
+    def queries(self, run: str, episode: int) -> list[wire.Query]:
+        """Return all queries about an episode, newest first."""
+        found, params = list[wire.Query](), {"episode": episode, "limit": _QUERIES_AT_ONCE}
+        while True:
+            page = self._call(wire.QueryList, "GET", f"/runs/{run}/queries", params=params).queries
+            found += page
+            if len(page) < _QUERIES_AT_ONCE:
+                return found
+            params["before"] = page[-1].id
 
     def query(self, query: int, wait: float = 0) -> wire.Query:
         """Return a query; wait up to `wait` seconds (at most 60) for its answer."""
@@ -196,7 +211,8 @@ class Client:
             time.sleep(pause)
             pause = min(2 * pause, _LONGEST_PAUSE)
         if response.is_error:
-            raise Refused(_problem(response))
+            problem = _problem(response)
+            raise (BudgetExhausted if problem.type.endswith("/budget-exhausted") else Refused)(problem)
         return response
 
 

@@ -13,7 +13,9 @@ import typer
 from waypost_learner.cli import app
 
 ROOT = Path(__file__).resolve().parents[2]
-DOCUMENTS = (*sorted(ROOT.glob("*.md")), *sorted(ROOT.glob("docs/**/*.md")))
+DOCUMENTS = tuple(
+    path for pattern in ("*.md", "docs/**/*.md", "examples/**/*.md") for path in sorted(ROOT.glob(pattern))
+)
 
 Command = Any  # typer brings its own copy of click, whose classes are private
 

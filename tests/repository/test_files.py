@@ -29,7 +29,7 @@ def test_no_file_names_a_package_registry_or_a_path_of_one_machine():
 
 
 def test_no_source_file_is_ignored_by_git():
-    folders = ["sdk", "server", "learner", "web/src", "web/public", "tests", "docs", "bench", "scripts"]
+    folders = ["sdk", "server", "learner", "web/src", "web/public", "tests", "docs", "bench", "scripts", "examples"]
     ask = ["git", "ls-files", "--others", "--ignored", "--exclude-standard", *folders]
     listed = subprocess.run(ask, cwd=ROOT, capture_output=True, text=True, check=False).stdout.split()
     assert [

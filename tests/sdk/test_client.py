@@ -236,3 +236,15 @@ def test_a_bot_whose_lease_was_lost_goes_on_with_the_next_question(service: Serv
     assert len(receipts) == 2
     assert lost[0] not in {receipt.query for receipt in receipts}
     assert service.learner.query(lost[0]).state == "open"
+
+
+def test_a_bot_leaves_a_domain_that_it_does_not_know_to_others_and_says_why(service: Service) -> None:
+    unknown = RUN.model_copy(update={"vocabulary": RUN.vocabulary.model_copy(update={"domain": "kitchen"})})
+    (strange,) = service.learner.ask(service.learner.create_run(unknown).id, [demonstration()])
+    (known,) = service.learner.ask(service.learner.create_run(RUN).id, [demonstration()])
+    receipts: list[wire.Receipt] = []
+    Bot(service.annotator, on_failure=lambda assignment, error: None).work(wait=0, on_answer=receipts.append)
+    assert [receipt.query for receipt in receipts] == [known.id]
+    assert service.learner.query(strange.id).state == "open"
+    history = service.learner._call(wire.QueryHistory, "GET", f"/queries/{strange.id}/history")
+    assert "kitchen" in (history.assignments[0].reason or "")

@@ -7,12 +7,26 @@ import waypost
 
 
 def test_the_public_names_are_these() -> None:
-    assert waypost.__all__ == ["Client", "Refused", "Unreachable", "domain", "prices", "wire"]
+    assert waypost.__all__ == [
+        *("AskedQuery", "BudgetExhausted", "Client", "HierDemo", "InspectFull", "InspectLo", "LabelFull", "LabelHi"),
+        *(
+            "LabelLo",
+            "QueryCancelled",
+            "Refused",
+            "Run",
+            "Segment",
+            "Unreachable",
+            "domain",
+            "prices",
+            "start_run",
+            "wire",
+        ),
+    ]
     assert all(hasattr(waypost, name) for name in waypost.__all__)
 
 
 def test_a_client_program_needs_no_web_framework_no_database_and_no_numerics() -> None:
-    heavy = {"fastapi", "starlette", "sqlalchemy", "torch", "numpy", "gymnasium"}
+    heavy = {"fastapi", "starlette", "sqlalchemy", "torch", "numpy", "gymnasium", "PIL", "rich"}
     code = f"import sys, waypost; print(sorted({heavy!r} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

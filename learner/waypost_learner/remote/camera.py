@@ -5,15 +5,13 @@ environment. If a domain cannot return to a state, its states already have pictu
 SHA-256 of its PNG.
 """
 
-import hashlib
-import io
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
-from PIL import Image
 
 from waypost.domains import Domain, Pictured, Restorable, replay_of
+from waypost.runs.pictures import digest, png
 from waypost.trajectory import Action, Segment, State
 
 
@@ -71,9 +69,9 @@ class Camera:
 
     def _keep(self, key: Any, pixels: Any) -> None:
         if key not in self._hashes:
-            png = encoded(pixels)
-            self._hashes[key] = hashlib.sha256(png).hexdigest()
-            self._new[self._hashes[key]] = png
+            file = png(pixels)
+            self._hashes[key] = digest(file)
+            self._new[digest(file)] = file
 
     def _pixels(self, actions: Sequence[Action], states: Sequence[State]) -> Iterator[Any]:
         """Yield the picture of each state, uint8[rows, columns, 3]."""
@@ -92,10 +90,3 @@ class Camera:
         for action in actions:
             self._env.step(np.int64(action))
             yield self._pictured.frame(self._env)
-
-
-def encoded(pixels: Any) -> bytes:
-    """Return a picture uint8[rows, columns, 3] as a PNG file."""
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, "PNG")
-    return file.getvalue()

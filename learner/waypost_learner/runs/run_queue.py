@@ -8,10 +8,6 @@ from waypost.client import Client, Refused
 POLL_SECONDS = 30.0
 
 
-class BudgetExhausted(Exception):
-    """The run's budget cannot pay for the next query."""
-
-
 class RunQueue:
     """The queries of one run.
 
@@ -38,12 +34,7 @@ class RunQueue:
         """
         if frames:
             self._client.upload(frames)
-        try:
-            (asked,) = self._client.ask(self._run, [ask])
-        except Refused as refusal:
-            if refusal.name == "budget-exhausted":
-                raise BudgetExhausted(str(refusal)) from refusal
-            raise
+        (asked,) = self._client.ask(self._run, [ask])
         return asked.id
 
     def use(self, query: int) -> wire.Query | None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from waypost import wire
-from waypost.client import Client
+from waypost.client import BudgetExhausted, Client
 from waypost.domains import Domain
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.experts.bot import Bot, BotSettings
@@ -19,7 +19,7 @@ from waypost_learner.remote.translation import vocabulary
 from waypost_learner.runs import checkpoints
 from waypost_learner.runs.config import START, Progress, TrainConfig, config_values
 from waypost_learner.runs.driver import Driver, Hooks, Offer
-from waypost_learner.runs.run_queue import BudgetExhausted, RunQueue
+from waypost_learner.runs.run_queue import RunQueue
 from waypost_learner.runs.setup import Setup, set_up
 from waypost_learner.runs.summary import finish
 from waypost_learner.runs.tracking import Tracker
