@@ -72,6 +72,7 @@ def train(
     budget: Annotated[float | None, typer.Option(min=0, help="The highest cost of the run, in units.")] = None,
     checkpoints: CheckpointsOption = None,
     threads: ThreadsOption = None,
+    log: Annotated[list[str] | None, typer.Option(help="Loggers: tensorboard (the default), wandb, mlflow.")] = None,
     patience: PatienceOption = 300.0,
     as_json: JsonOption = False,
 ) -> None:
@@ -87,6 +88,7 @@ def train(
         from waypost_learner.remote.embedded import embedded
         from waypost_learner.runs.config import TrainConfig
         from waypost_learner.runs.setup import set_up
+        from waypost_learner.runs.tracking.tracker import check
         from waypost_learner.runs.training import RunOptions
         from waypost_learner.runs.training import train as train_run
 
@@ -94,7 +96,10 @@ def train(
             algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start, values
         )
         set_up(config, threads)  # refuses a wrong configuration before the store is created
-        options = RunOptions(name, budget, resume, checkpoint_folder(checkpoints, store, server), threads)
+        loggers = tuple(word.strip() for words in log or ["tensorboard"] for word in words.split(","))
+        check(loggers)  # likewise
+        folder = checkpoint_folder(checkpoints, store, server)
+        options = RunOptions(name, budget, resume, folder, threads, loggers, server)
         with ExitStack() as stack:
             connection = stack.enter_context(
                 connected(server, needed(token), expert == "oracle", patience)
@@ -102,7 +107,7 @@ def train(
                 else embedded(store or Path("waypost.db"))
             )
             progress = stack.enter_context(_TrainingProgress(episodes))
-            summary = train_run(config, connection, options, progress.start, progress.episode)
+            summary = train_run(config, connection, options, progress.start, progress.episode, _tell)
     _print_summary(summary, as_json)
 
 
@@ -269,6 +274,10 @@ class _TrainingProgress:
         self._tests = [*self._tests, bool(result.test_success)][-100:]
         rate = sum(self._tests) / len(self._tests)
         self._bar.update(self._task, advance=1, description=f"success {rate:.0%} (trailing {len(self._tests)})")
+
+
+def _tell(sentence: str) -> None:
+    typer.echo(sentence, err=True)
 
 
 def _print_summary(summary: dict[str, Any], as_json: bool) -> None:
