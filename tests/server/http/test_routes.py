@@ -1,8 +1,5 @@
 """Every route is guarded, by login and by role, and described."""
 
-import json
-import subprocess
-import sys
 from typing import Any
 
 import pytest
@@ -187,13 +184,8 @@ def test_what_the_server_sends_has_no_optional_fields() -> None:
         assert set(schemas[name]["required"]) == set(schemas[name]["properties"]), name
 
 
-def test_the_document_is_printed() -> None:
-    done = subprocess.run([sys.executable, "-m", "waypost_server.openapi"], capture_output=True, check=True)
-    assert json.loads(done.stdout) == document()
-
-
 def test_the_document_is_served_to_everybody(lite: Service) -> None:
-    assert lite.client.get("/api/v1/openapi.json").json()["info"]["title"] == "Waypost"
+    assert lite.client.get("/api/v1/openapi.json").json() == document()
 
 
 @pytest.mark.parametrize("path", ["/healthz", "/readyz"])
