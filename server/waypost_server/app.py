@@ -52,6 +52,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         openapi_url=f"{API}/openapi.json",
         docs_url=None,
         redoc_url=None,
+        webhooks=webhooks.sent,
         lifespan=lambda app: _lifespan(app, chosen),
     )
     api = APIRouter(prefix=API)

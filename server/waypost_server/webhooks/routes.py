@@ -14,6 +14,9 @@ from waypost_server.http.problems import refusals
 from waypost_server.webhooks import service as webhooks
 from waypost_server.webhooks.policy import Policy
 
+sent = APIRouter()
+"""The requests that the server sends, for the OpenAPI document."""
+
 router = APIRouter(prefix="/webhooks", tags=["webhooks"], route_class=JsonRoute)
 
 
@@ -82,3 +85,11 @@ async def list_deliveries(
 async def redeliver(webhook: RowPath, delivery: RowPath, context: Ctx, _: AdminCalls) -> wire.Delivery:
     """Send a message again, with the same id and content."""
     return await context.db.write(lambda tx: webhooks.redeliver(tx, webhook, delivery))
+
+
+@sent.post("message", operation_id="webhook", tags=["webhooks"])
+async def message(body: wire.WebhookMessage) -> None:
+    """Tell a receiver about a change. The headers are those of Standard Webhooks; any status from 200 to 299 accepts.
+
+    A receiver can get a message twice, with the same `webhook-id`.
+    """

@@ -38,6 +38,14 @@ MATRIX: dict[str, set[str]] = {
     "listTokens": {"admin"},
     "getNumbers": {"admin"},
     "listNumbers": {"admin"},
+    "createWebhook": {"admin"},
+    "listWebhooks": {"admin"},
+    "getWebhook": {"admin"},
+    "patchWebhook": {"admin"},
+    "deleteWebhook": {"admin"},
+    "pingWebhook": {"admin"},
+    "listDeliveries": {"admin"},
+    "redeliver": {"admin"},
     "addGold": {"admin", "learner"},
     "listGold": {"admin", "learner"},
     "retireGold": {"admin", "learner"},
@@ -121,6 +129,15 @@ def test_the_messages_of_the_play_socket_are_described() -> None:
     names = {name for name, of in vars(wire).items() if name.startswith("Play") and isinstance(of, type)}
     assert len(names) == 5
     assert names <= set(schemas)
+
+
+def test_what_a_receiver_of_webhooks_gets_is_described() -> None:
+    (sent,) = document()["webhooks"].values()
+    schema = sent["post"]["requestBody"]["content"]["application/json"]["schema"]
+    assert set(schema["discriminator"]["mapping"]) == {*wire.WEBHOOK_TOPICS, "ping"}
+    assert set(sent["post"]["responses"]) == {"200"}
+    described = document()["components"]["schemas"]
+    assert {"WebhookAnswer", "WebhookRun", "WebhookPing", "AnswerNews", "RunNews", "PingNews"} <= set(described)
 
 
 def test_every_route_needs_a_login_but_health_and_login_itself(lite: Service) -> None:
