@@ -9,7 +9,9 @@ const target = fileURLToPath(new URL('src/api/schema.d.ts', import.meta.url));
 const venv = `${root}.venv/bin/python`;
 const python = process.env.PYTHON ?? (existsSync(venv) ? venv : 'python3');
 
-const document = execFileSync(python, ['-m', 'waypost_server.openapi'], {
+const print =
+  'import json; from waypost_server.app import create_app; print(json.dumps(create_app().openapi()))';
+const document = execFileSync(python, ['-c', print], {
   cwd: root,
   maxBuffer: 64 * 2 ** 20,
 });

@@ -74,6 +74,7 @@ def train(
     budget: Annotated[float | None, typer.Option(min=0, help="The highest cost of the run, in units.")] = None,
     checkpoints: CheckpointsOption = None,
     threads: ThreadsOption = None,
+    log: Annotated[list[str] | None, typer.Option(help="Loggers: tensorboard (the default), wandb, mlflow.")] = None,
     patience: PatienceOption = 300.0,
     as_json: JsonOption = False,
 ) -> None:
@@ -89,6 +90,7 @@ def train(
         from waypost_learner.remote.embedded import embedded
         from waypost_learner.runs.config import TrainConfig
         from waypost_learner.runs.setup import set_up
+        from waypost_learner.runs.tracking.tracker import check
         from waypost_learner.runs.training import RunOptions
         from waypost_learner.runs.training import train as train_run
 
@@ -98,7 +100,10 @@ def train(
         setup = set_up(config, threads)  # refuses a wrong configuration before the store is created
         for part, instead in setup.missing.items():
             typer.echo(f"The domain {domain!r} provides no {part}. {instead}", err=True)
-        options = RunOptions(name, budget, resume, checkpoint_folder(checkpoints, store, server), threads)
+        loggers = tuple(word.strip() for words in log or ["tensorboard"] for word in words.split(","))
+        check(loggers)  # likewise
+        folder = checkpoint_folder(checkpoints, store, server)
+        options = RunOptions(name, budget, resume, folder, threads, loggers, server)
         with ExitStack() as stack:
             connection = stack.enter_context(
                 connected(server, needed(token), expert == "oracle", patience)
@@ -106,7 +111,7 @@ def train(
                 else embedded(store or Path("waypost.db"))
             )
             progress = stack.enter_context(_TrainingProgress(episodes))
-            summary = train_run(config, connection, options, progress.start, progress.episode)
+            summary = train_run(config, connection, options, progress.start, progress.episode, _tell)
     _print_summary(summary, as_json)
 
 
@@ -316,6 +321,10 @@ def _report_failure(assignment: Assignment, error: Exception) -> None:
     """Say which query the bot left to others, and why."""
     query = assignment.query
     typer.echo(f"Query {query.id} of run {assignment.run.id} is left to others: {error}", err=True)
+
+
+def _tell(sentence: str) -> None:
+    typer.echo(sentence, err=True)
 
 
 def _print_summary(summary: dict[str, Any], as_json: bool) -> None:

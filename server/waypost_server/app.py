@@ -33,6 +33,8 @@ from waypost_server.users import session_routes as sessions
 from waypost_server.watch import event_routes as event_streams
 from waypost_server.watch import routes as watch
 from waypost_server.watch import system_routes as system
+from waypost_server.webhooks import routes as webhooks
+from waypost_server.webhooks.courier import delivering
 
 API = "/api/v1"
 GZIP_BYTES = 8_192  # smaller responses are not compressed
@@ -50,11 +52,13 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         openapi_url=f"{API}/openapi.json",
         docs_url=None,
         redoc_url=None,
+        webhooks=webhooks.sent,
         lifespan=lambda app: _lifespan(app, chosen),
     )
     api = APIRouter(prefix=API)
     for module in (runs, queries, leases, answers, play, watch, event_streams, frames, users, sessions, gold, practice):
         api.include_router(module.router)
+    api.include_router(webhooks.router)
     app.include_router(api)
     app.include_router(system.router)
     problems.install(app)
@@ -79,7 +83,8 @@ async def _lifespan(app: FastAPI, settings: Settings) -> AsyncIterator[None]:
     app.state.relay = Relay()
     reaper = asyncio.create_task(_end_expired_leases(app.state.context))
     try:
-        yield
+        async with delivering(app.state.context):
+            yield
     finally:
         reaper.cancel()
         with suppress(asyncio.CancelledError):

@@ -27,6 +27,7 @@ Refusal
 │   ├── BudgetTooLow            a budget below the units spent and reserved
 │   ├── NameTaken               a user with this name exists
 │   ├── NotActive               a deactivated user gets no login links or tokens
+│   ├── WebhookOff              a webhook that is off sends nothing
 │   └── LastAdministrator       no active administrator would be left
 ├── BodyTooLarge           413  the body is larger than the server accepts
 ├── NotJson                415  the body is not declared as JSON
@@ -212,6 +213,12 @@ class NotActive(Conflict):
     """The user is deactivated and cannot get a login link or a token."""
 
     name, title = "not-active", "The user is deactivated"
+
+
+class WebhookOff(Conflict):
+    """The webhook is off, so it sends nothing."""
+
+    name, title = "webhook-off", "The webhook is off"
 
 
 class LastAdministrator(Conflict):

@@ -1,5 +1,6 @@
 """The settings of the server. Each is also an environment variable with the prefix `WAYPOST_`."""
 
+from ipaddress import IPv4Network, IPv6Network
 from pathlib import Path
 from typing import Annotated
 
@@ -51,6 +52,22 @@ class Settings(BaseSettings):
     secure_cookies: bool = Field(
         default=False, description="True behind an https proxy: browsers send the cookie over https only."
     )
+    webhook_hosts: Annotated[tuple[str, ...], NoDecode] = Field(
+        default=(), description="Hosts that webhooks may call: NAME[:PORT], comma-separated; *.NAME for subdomains."
+    )
+    webhook_networks: Annotated[tuple[IPv4Network | IPv6Network, ...], NoDecode] = Field(
+        default=(), description="Ranges of private addresses that webhooks may call, comma-separated: 10.1.0.0/16."
+    )
+    webhook_seconds: float = Field(default=10.0, gt=0, description="The maximum time of one webhook call.")
+    webhook_retry_seconds: float = Field(
+        default=5.0, gt=0, description="The pause of a webhook after its first failure; it doubles with each failure."
+    )
+    webhook_give_up_seconds: float = Field(
+        default=3 * 86_400.0, gt=0, description="How long a message is tried before it is given up."
+    )
+    webhook_off_seconds: float = Field(
+        default=5 * 86_400.0, gt=0, description="How long a webhook may fail before it is turned off."
+    )
     practice: Path | None = Field(
         default=None, description="A file that `waypost practice` wrote; the default has queries about mazes."
     )
@@ -58,7 +75,7 @@ class Settings(BaseSettings):
         default=None, description="The folder of the built web app; the default is found automatically."
     )
 
-    @field_validator("hosts", mode="before")
+    @field_validator("hosts", "webhook_hosts", "webhook_networks", mode="before")
     @classmethod
     def _split(cls, value: object) -> object:
         return tuple(name.strip() for name in value.split(",") if name.strip()) if isinstance(value, str) else value

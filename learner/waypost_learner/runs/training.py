@@ -22,7 +22,8 @@ from waypost_learner.runs.driver import Driver, Hooks, Offer
 from waypost_learner.runs.run_queue import RunQueue
 from waypost_learner.runs.setup import Setup, set_up
 from waypost_learner.runs.summary import finish
-from waypost_learner.runs.tracking import Tracker
+from waypost_learner.runs.tracking.contract import Rows, TrackedRun, rows_after
+from waypost_learner.runs.tracking.tracker import Tracker, check
 
 NOT_PROVIDED = "not_provided"
 """The name in a run's configuration under which it keeps what was used instead of missing parts of the domain."""
@@ -37,6 +38,8 @@ class RunOptions:
     resume: bool = False  # whether to continue the newest unfinished run of the configuration
     checkpoints: Path = Path("checkpoints")
     threads: int | None = None  # CPU threads; one per core if None
+    loggers: tuple[str, ...] = ("tensorboard",)
+    server: str | None = None  # the server's address, for the links of loggers to the run's page
 
 
 def train(
@@ -45,6 +48,7 @@ def train(
     options: RunOptions,
     on_start: Callable[[wire.Run, int], None] = lambda _run, _first: None,
     on_episode: Callable[[wire.EpisodeResult, float], None] = lambda _result, _units: None,
+    tell: Callable[[str], None] = lambda _sentence: None,
 ) -> dict[str, Any]:
     """Train a run to its end and return its summary.
 
@@ -54,13 +58,15 @@ def train(
         options: the options that do not change what is learned.
         on_start: called with the run and the number of its first episode in this process.
         on_episode: called with each episode's result and the units that its answers cost.
+        tell: called with sentences of loggers: where they show the run, and errors.
 
     Raises:
-        ValueError: the configuration cannot be trained; see `set_up`.
+        ValueError: the configuration cannot be trained, or a logger cannot be used; see `set_up` and `check`.
         Refused: the server refused a call.
         Unreachable: the server did not answer.
     """
     began = time.monotonic()
+    check(options.loggers)
     setup = set_up(config, options.threads)
     learner = setup.learner
     if connection.annotator is not None:
@@ -73,7 +79,7 @@ def train(
     def save(progress: Progress, weights_only: bool) -> None:
         checkpoints.write(path, learner, checkpoints.Header(run.id, config, progress), weights_only)
 
-    with Tracker(path.with_suffix(".events"), first.episodes) as tracker:
+    with _tracker(run, first, connection.learner, options, tell) as tracker:
 
         def report(result: wire.EpisodeResult, units: float) -> None:
             tracker.episode(result, units)
@@ -86,9 +92,11 @@ def train(
             offer=_offer_to_people(connection),
         )
         ended, progress = _drive(setup, _queue(connection, run.id), hooks, first)
-    learner.train_idle()  # the training that would follow the next query
-    save(progress, weights_only=True)
-    return finish(setup, connection.learner, run.id, ended, time.monotonic() - began)
+        learner.train_idle()  # the training that would follow the next query
+        save(progress, weights_only=True)
+        summary = finish(setup, connection.learner, run.id, ended, time.monotonic() - began)
+        tracker.finish(summary)
+    return summary
 
 
 def _drive(setup: Setup, queue: RunQueue, hooks: Hooks, first: Progress) -> tuple[str, Progress]:
@@ -99,6 +107,18 @@ def _drive(setup: Setup, queue: RunQueue, hooks: Hooks, first: Progress) -> tupl
     except BudgetExhausted:
         ended = "budget exhausted"
     return ended, driver.progress
+
+
+def _tracker(
+    run: wire.Run, first: Progress, client: Client, options: RunOptions, tell: Callable[[str], None]
+) -> Tracker:
+    """Return the tracker of a run, which continues the records of a resumed run."""
+    page = None if options.server is None else f"{options.server.rstrip('/')}/runs/{run.id}"
+    tracked = TrackedRun(
+        run.id, run.name, run.config, options.checkpoints, first.episodes, max(run.episodes_done, first.episodes), page
+    )
+    rows = rows_after(client.curves(run.id), first.episodes) if first.episodes else Rows()
+    return Tracker(options.loggers, tracked, rows, tell)
 
 
 def _queue(connection: Connection, run: str) -> RunQueue:

@@ -19,4 +19,5 @@ from waypost.wire.queries import *
 from waypost.wire.runs import *
 from waypost.wire.system import *
 from waypost.wire.watching import *
+from waypost.wire.webhooks import *
 from waypost.wire.words import *

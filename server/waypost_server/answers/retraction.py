@@ -19,6 +19,7 @@ from waypost_server.queries import service as queries
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
 from waypost_server.settings import Settings
+from waypost_server.webhooks import outbox
 
 
 def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Settings) -> wire.Assignment:
@@ -55,7 +56,11 @@ def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Se
         .where(query_table.c.id == query.id)
         .values(state="leased", answer_id=None, revision=query.revision + 1)
     )
-    events.add(tx, run.id, "retracted", {"query": query.id, "answer": given.id, "units": to_units(given.units)})
+    data = {"query": query.id, "answer": given.id, "units": to_units(given.units)}
+    event = events.add(tx, run.id, "retracted", data)
+    if run.gold_of is None:
+        more = {"event": event, "kind": query.kind, "episode": query.episode}
+        outbox.announce(tx, "answer.retracted", run.id, data | more)
     tx.wake(queries.topic(query.id))
     return view(tx, grant(tx, query.id, user, settings.lease_seconds, tab=body.tab))
 

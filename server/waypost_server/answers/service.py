@@ -26,6 +26,7 @@ from waypost_server.queries import checks
 from waypost_server.queries import service as queries
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
+from waypost_server.webhooks import outbox
 
 
 @dataclass(frozen=True)
@@ -168,7 +169,9 @@ def _accept(tx: Tx, post: Post, case: Case, following: LeaseRequest | None) -> w
         "episode": case.query.episode,
         "units": to_units(cost.units),
     }
-    events.add(tx, case.run.id, "answered", data)
+    event = events.add(tx, case.run.id, "answered", data)
+    if case.run.gold_of is None:
+        outbox.announce(tx, "answer.accepted", case.run.id, {"event": event, **data})
     tx.wake(queries.topic(case.query.id), runs.answers_topic(case.run.id))
     return _receipt(stored, None if following is None else leases.lease(tx, following))
 

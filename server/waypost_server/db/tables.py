@@ -341,3 +341,64 @@ gold_streams = Table(
     Column("run_id", Text, ForeignKey("runs.id"), primary_key=True),
     Column("handed", Integer, nullable=False),
 )
+
+# Addresses to which an administrator has answers and states of runs announced.
+webhooks = Table(
+    "webhooks",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    Column("url", Text, nullable=False),
+    Column("topics", Text, nullable=False),
+    Column("note", Text, nullable=False),
+    Column("secret", Text, nullable=False),  # in clear text, because every message is signed with it
+    Column("active", Boolean, nullable=False),
+    Column("off_reason", Text),
+    # Attempts that failed since the last success; all deliveries of the webhook wait until `resumes_at`.
+    Column("failures", Integer, nullable=False),
+    Column("failing_since", Float),
+    Column("resumes_at", Float, nullable=False),
+    # The server process that delivers now. Others leave the webhook alone until the claim expires.
+    Column("claim", Text),
+    Column("claimed_until", Float),
+    Column("created_at", Float, nullable=False),
+    CheckConstraint("off_reason IS NULL OR NOT active", name="off_reason"),
+    CheckConstraint("failures >= 0 AND (failures = 0) = (failing_since IS NULL)", name="failing_since"),
+    CheckConstraint("(claim IS NULL) = (claimed_until IS NULL)", name="claim"),
+    sqlite_autoincrement=True,
+)
+
+# One message to one webhook, written in the transaction of the change that it announces.
+deliveries = Table(
+    "deliveries",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("webhook_id", RowId, ForeignKey("webhooks.id"), nullable=False),
+    Column("message", Text, nullable=False, unique=True),
+    Column("type", Text, nullable=False),
+    Column("run_id", Text, ForeignKey("runs.id")),
+    Column("body", Text, nullable=False),
+    # pending -> delivered | given_up; given_up or delivered -> pending: an administrator asked for it again.
+    Column("state", Text, nullable=False),
+    Column("attempts", Integer, nullable=False),
+    Column("status", Integer),
+    Column("reason", Text),
+    Column("created_at", Float, nullable=False),
+    Column("queued_at", Float, nullable=False),  # when it was last made pending
+    Column("next_at", Float, nullable=False),
+    Column("ended_at", Float),
+    one_of("state", "pending", "delivered", "given_up"),
+    CheckConstraint("(state = 'pending') = (ended_at IS NULL)", name="ended_at"),
+    CheckConstraint("attempts >= 0", name="attempts"),
+    Index("ix_deliveries_webhook", "webhook_id", "id"),
+    sqlite_autoincrement=True,
+)
+IS_PENDING = deliveries.c.state == literal_column("'pending'")
+_pending = text("state = 'pending'")
+Index(
+    "ix_deliveries_pending",
+    deliveries.c.webhook_id,
+    deliveries.c.id,
+    sqlite_where=_pending,
+    postgresql_where=_pending,
+)

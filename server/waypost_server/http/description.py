@@ -37,10 +37,19 @@ def install(app: FastAPI) -> None:
 
 def document(app: FastAPI) -> dict[str, Any]:
     """Return the app's OpenAPI document."""
-    found = get_openapi(title=app.title, version=app.version, summary=app.summary, routes=app.routes)
+    found = get_openapi(
+        title=app.title,
+        version=app.version,
+        summary=app.summary,
+        routes=app.routes,
+        webhooks=app.webhooks.routes,
+    )
     for path in found["paths"].values():
         for operation in path.values():
             _state_problems(operation)
+    for path in found["webhooks"].values():
+        for operation in path.values():
+            operation["responses"].pop("422")  # FastAPI's own, which no receiver needs to send
     schemas = found["components"]["schemas"]
     for name in ("HTTPValidationError", "ValidationError"):
         schemas.pop(name, None)

@@ -13,7 +13,7 @@ from waypost_server.db.transaction import Tx
 PAGE = 500  # events read at once
 ANY = "events"  # the topic that a new event of any run wakes
 
-_INSERT = insert(events)
+_INSERT = insert(events).returning(events.c.id)
 
 
 def topic(run: str) -> str:
@@ -21,11 +21,14 @@ def topic(run: str) -> str:
     return f"events:{run}"
 
 
-def add(tx: Tx, run: str, event: str, data: Mapping[str, Any]) -> None:
-    """Record a change. The caller has locked the run's row, so the ids of a run grow in the order of the commits."""
+def add(tx: Tx, run: str, event: str, data: Mapping[str, Any]) -> int:
+    """Record a change and return its id.
+
+    The caller has locked the run's row, so the ids of a run grow in the order of the commits.
+    """
     row = {"run_id": run, "event": event, "data": json.dumps(data), "created_at": tx.now}
-    tx.conn.execute(_INSERT, row)
     tx.wake(topic(run), ANY)
+    return int(tx.conn.execute(_INSERT, row).scalar_one())
 
 
 def newest(tx: Tx, run: str) -> int:

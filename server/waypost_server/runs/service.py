@@ -15,6 +15,7 @@ from waypost_server.db.tables import IS_LIVE, assignments, episodes, queries, ru
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import events, ledger
 from waypost_server.runs.ledger import Account
+from waypost_server.webhooks import outbox
 
 TRAILING = 100  # the success rate is over this many test episodes
 UNANSWERED = ("open", "leased")
@@ -145,7 +146,8 @@ def create(tx: Tx, wanted: wire.RunCreate, user: int) -> wire.Run:
             created_at=tx.now,
         )
     )
-    events.add(tx, run, "run", {"state": "running"})
+    event = events.add(tx, run, "run", {"state": "running"})
+    outbox.announce(tx, "run.state", run, {"event": event, "name": wanted.name, "state": "running"})
     return view(tx, run)
 
 
@@ -175,7 +177,10 @@ def patch(tx: Tx, run: str, wanted: wire.RunPatch) -> wire.Run:
         changes |= _new_state(tx, row, wanted.state)
     if changes:
         tx.conn.execute(update(runs).where(runs.c.id == run).values(**changes))
-        events.add(tx, run, "run", {"state": changes.get("state", row.state)})
+        event = events.add(tx, run, "run", {"state": changes.get("state", row.state)})
+        if "state" in changes:
+            name = changes.get("name", row.name)
+            outbox.announce(tx, "run.state", run, {"event": event, "name": name, "state": changes["state"]})
     return view(tx, run)
 
 

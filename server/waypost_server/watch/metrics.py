@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from sqlalchemy import func, select
 
 from waypost.prices import to_units
-from waypost_server.db.tables import answers, assignments, ledger, queries, runs
+from waypost_server.db.tables import answers, assignments, deliveries, ledger, queries, runs, webhooks
 from waypost_server.db.transaction import Tx
 
 
@@ -28,6 +28,16 @@ def text(tx: Tx) -> str:
     units = tx.conn.execute(select(ledger.c.kind, func.sum(ledger.c.units)).group_by(ledger.c.kind)).all()
     costs = ((f'kind="{kind}"', to_units(int(micro))) for kind, micro in units)
     lines += _metric("waypost_cost_units", "gauge", "Units in the ledger.", costs)
+    messages = tx.conn.execute(select(deliveries.c.state, func.count()).group_by(deliveries.c.state)).all()
+    lines += _metric(
+        "waypost_webhook_messages",
+        "gauge",
+        "Kept webhook messages by state.",
+        ((f'state="{s}"', n) for s, n in messages),
+    )
+    hooks = tx.conn.execute(select(webhooks.c.active, func.count()).group_by(webhooks.c.active)).all()
+    states = ((f'state="{"on" if active else "off"}"', n) for active, n in hooks)
+    lines += _metric("waypost_webhooks", "gauge", "Webhooks by state.", states)
     return "\n".join(lines) + "\n"
 
 

@@ -3,14 +3,20 @@
 import threading
 
 import pytest
+from alembic import command
 from alembic.autogenerate import compare_metadata
 from alembic.runtime.migration import MigrationContext
-from sqlalchemy import text
+from sqlalchemy import create_engine, text
 
+from waypost import wire
+from waypost_server.db import schema
 from waypost_server.db.engine import BadDatabase, Database, parse
 from waypost_server.db.schema import NewerStore
 from waypost_server.db.tables import metadata
 from waypost_server.db.transaction import Tx
+from waypost_server.users import service as users
+from waypost_server.webhooks import service as webhooks
+from waypost_server.webhooks.policy import Policy
 
 
 def differences(tx: Tx) -> list[object]:
@@ -50,8 +56,25 @@ def test_opening_a_store_again_changes_nothing(database_url: str) -> None:
     Database(database_url).close()
     db = Database(database_url)
     assert db.read_now(lambda tx: tx.conn.execute(text("SELECT version_num FROM alembic_version")).scalars().all()) == [
-        "0006"
+        "0007"
     ]
+    db.close()
+
+
+def test_a_store_from_before_webhooks_opens_with_all_that_it_has(database_url: str) -> None:
+    url = parse(database_url)
+    engine = create_engine(url)
+    settings = schema.config()
+    with engine.begin() as conn:
+        settings.attributes["connection"] = conn
+        command.upgrade(settings, "0006")
+        conn.execute(text("INSERT INTO users (name, role, created_at) VALUES ('ann', 'admin', 1.5)"))
+    engine.dispose()
+    db = Database(database_url)
+    assert db.read_now(users.list_users).users[0].name == "ann"
+    wanted = wire.WebhookCreate(url="https://hooks.example.org/")
+    made = db.write_now(lambda tx: webhooks.create(tx, wanted, 1, Policy(("hooks.example.org",))))
+    assert db.read_now(webhooks.list_webhooks).webhooks == [made.webhook]
     db.close()
 
 

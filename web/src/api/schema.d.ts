@@ -882,6 +882,118 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/webhooks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Webhooks
+         * @description List all webhooks.
+         */
+        get: operations["listWebhooks"];
+        put?: never;
+        /**
+         * Create Webhook
+         * @description Create a webhook for an address that the operator has allowed. Its signing secret is shown only once.
+         */
+        post: operations["createWebhook"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/webhooks/{webhook}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Webhook
+         * @description Return a webhook.
+         */
+        get: operations["getWebhook"];
+        put?: never;
+        post?: never;
+        /**
+         * Delete Webhook
+         * @description Delete a webhook and its messages.
+         */
+        delete: operations["deleteWebhook"];
+        options?: never;
+        head?: never;
+        /**
+         * Patch Webhook
+         * @description Change a webhook, or turn it off or on. Turning it on tries its pending messages immediately.
+         */
+        patch: operations["patchWebhook"];
+        trace?: never;
+    };
+    "/api/v1/webhooks/{webhook}/ping": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Ping Webhook
+         * @description Send a test message.
+         */
+        post: operations["pingWebhook"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/webhooks/{webhook}/deliveries": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Deliveries
+         * @description List one page of a webhook's messages, newest first. Messages that ended more than a week ago are deleted.
+         */
+        get: operations["listDeliveries"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/webhooks/{webhook}/deliveries/{delivery}/redeliver": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Redeliver
+         * @description Send a message again, with the same id and content.
+         */
+        post: operations["redeliver"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/healthz": {
         parameters: {
             query?: never;
@@ -943,9 +1055,73 @@ export interface paths {
         trace?: never;
     };
 }
-export type webhooks = Record<string, never>;
+export interface webhooks {
+    message: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Message
+         * @description Tell a receiver about a change. The headers are those of Standard Webhooks; any status from 200 to 299 accepts.
+         *
+         *     A receiver can get a message twice, with the same `webhook-id`.
+         */
+        post: operations["webhook"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+}
 export interface components {
     schemas: {
+        /**
+         * AnswerNews
+         * @description An answer that was accepted or retracted, without its content, which the REST API has.
+         */
+        AnswerNews: {
+            /**
+             * Event
+             * @description The id of the event in the run's event stream; it grows with every change.
+             */
+            event: number;
+            /**
+             * Run
+             * @description The id of the run.
+             */
+            run: string;
+            /**
+             * Query
+             * @description The id of the query.
+             */
+            query: number;
+            /**
+             * Answer
+             * @description The id of the answer.
+             */
+            answer: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /**
+             * Episode
+             * @description The number of the episode in the run, from 0.
+             */
+            episode: number;
+            /**
+             * Units
+             * @description The cost of the answer, charged or refunded, in units.
+             */
+            units: number;
+        };
         /**
          * AnswerPage
          * @description Answered queries after a cursor, in the order of the answers, sent by the server.
@@ -1774,6 +1950,72 @@ export interface components {
             learner_seconds: number[];
         };
         /**
+         * Delivery
+         * @description One message to one webhook, sent by the server.
+         */
+        Delivery: {
+            /** Id */
+            id: number;
+            /**
+             * Message
+             * @description The `webhook-id` that every attempt carries.
+             */
+            message: string;
+            /**
+             * Type
+             * @description The topic, or `ping`.
+             */
+            type: string;
+            /**
+             * Run
+             * @description The id of the run; null for a ping.
+             */
+            run: string | null;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "pending" | "delivered" | "given_up";
+            /**
+             * Attempts
+             * @description The number of attempts so far.
+             */
+            attempts: number;
+            /**
+             * Status
+             * @description The HTTP status of the last attempt; null if there was no reply.
+             */
+            status: number | null;
+            /**
+             * Reason
+             * @description Why the last attempt failed; null if it did not.
+             */
+            reason: string | null;
+            /**
+             * Created At
+             * @description When the message was queued, in seconds since the epoch.
+             */
+            created_at: number;
+            /**
+             * Next At
+             * @description When the next attempt is due, in seconds since the epoch.
+             */
+            next_at: number | null;
+            /**
+             * Ended At
+             * @description When it was delivered or given up, in seconds since the epoch.
+             */
+            ended_at: number | null;
+        };
+        /**
+         * DeliveryPage
+         * @description One page of the deliveries of a webhook, newest first, sent by the server.
+         */
+        DeliveryPage: {
+            /** Deliveries */
+            deliveries: components["schemas"]["Delivery"][];
+        };
+        /**
          * DemoSegment
          * @description One segment of a demonstration. It has no states: the learner computes them from the actions.
          */
@@ -2503,6 +2745,18 @@ export interface components {
             token: string;
         };
         /**
+         * NewWebhook
+         * @description A new webhook and its signing secret, sent by the server only once.
+         */
+        NewWebhook: {
+            webhook: components["schemas"]["Webhook"];
+            /**
+             * Secret
+             * @description The key of the signatures, in the format of Standard Webhooks: `whsec_...`.
+             */
+            secret: string;
+        };
+        /**
          * Numbers
          * @description Statistics of an annotator over all runs, sent by the server. Days are UTC days.
          */
@@ -2646,6 +2900,17 @@ export interface components {
              */
             ended_at: number | null;
             answer: components["schemas"]["PastAnswer"] | null;
+        };
+        /**
+         * PingNews
+         * @description The content of a test message.
+         */
+        PingNews: {
+            /**
+             * Webhook
+             * @description The id of the webhook.
+             */
+            webhook: number;
         };
         /**
          * Practice
@@ -3245,6 +3510,32 @@ export interface components {
             total: number;
         };
         /**
+         * RunNews
+         * @description A run that was created, paused, resumed or finished.
+         */
+        RunNews: {
+            /**
+             * Event
+             * @description The id of the event in the run's event stream; it grows with every change.
+             */
+            event: number;
+            /**
+             * Run
+             * @description The id of the run.
+             */
+            run: string;
+            /**
+             * Name
+             * @description The name of the run at that time.
+             */
+            name: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "running" | "paused" | "finished";
+        };
+        /**
          * RunPatch
          * @description Changes of a run. Absent fields do not change; a null budget removes the limit.
          */
@@ -3507,6 +3798,153 @@ export interface components {
              * @description The renderer of the web app that draws its instances and states.
              */
             renderer: string;
+        };
+        /**
+         * Webhook
+         * @description A webhook without its secret, sent by the server.
+         */
+        Webhook: {
+            /** Id */
+            id: number;
+            /** Url */
+            url: string;
+            /**
+             * Topics
+             * @description The changes that it announces.
+             */
+            topics: ("answer.accepted" | "answer.retracted" | "run.state")[];
+            /** Note */
+            note: string;
+            /**
+             * Active
+             * @description Whether it is on. Nothing is queued for a webhook that is off.
+             */
+            active: boolean;
+            /**
+             * Off Reason
+             * @description Why the server turned it off; null if the server did not.
+             */
+            off_reason: string | null;
+            /**
+             * Failing Since
+             * @description When the first of the latest attempts failed, in seconds since the epoch; null if none failed.
+             */
+            failing_since: number | null;
+            /**
+             * Pending
+             * @description The number of messages that wait for delivery.
+             */
+            pending: number;
+            /**
+             * Created At
+             * @description When it was created, in seconds since the epoch.
+             */
+            created_at: number;
+        };
+        /**
+         * WebhookAnswer
+         * @description The body of a request to a receiver: an answer was accepted or retracted.
+         */
+        WebhookAnswer: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "answer.accepted" | "answer.retracted";
+            /**
+             * Timestamp
+             * @description When the change happened, in UTC, as in ISO 8601.
+             */
+            timestamp: string;
+            data: components["schemas"]["AnswerNews"];
+        };
+        /**
+         * WebhookCreate
+         * @description A new webhook, sent by an administrator.
+         */
+        WebhookCreate: {
+            /**
+             * Url
+             * @description The https address of the receiver. The operator must have allowed its host.
+             */
+            url: string;
+            /**
+             * Topics
+             * @description The changes to announce.
+             * @default [
+             *       "answer.accepted",
+             *       "answer.retracted",
+             *       "run.state"
+             *     ]
+             */
+            topics: ("answer.accepted" | "answer.retracted" | "run.state")[];
+            /**
+             * Note
+             * @default
+             */
+            note: string;
+        };
+        /**
+         * WebhookList
+         * @description All webhooks, oldest first, sent by the server.
+         */
+        WebhookList: {
+            /** Webhooks */
+            webhooks: components["schemas"]["Webhook"][];
+        };
+        /**
+         * WebhookPatch
+         * @description Changes of a webhook, sent by an administrator. Absent fields do not change.
+         */
+        WebhookPatch: {
+            /** Url */
+            url?: string | null;
+            /**
+             * Topics
+             * @description The changes to announce.
+             */
+            topics?: ("answer.accepted" | "answer.retracted" | "run.state")[] | null;
+            /** Note */
+            note?: string | null;
+            /**
+             * Active
+             * @description False turns the webhook off. True turns it on again and tries its pending messages at once.
+             */
+            active?: boolean | null;
+        };
+        /**
+         * WebhookPing
+         * @description The body of a request to a receiver: an administrator tests the webhook.
+         */
+        WebhookPing: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "ping";
+            /**
+             * Timestamp
+             * @description When the change happened, in UTC, as in ISO 8601.
+             */
+            timestamp: string;
+            data: components["schemas"]["PingNews"];
+        };
+        /**
+         * WebhookRun
+         * @description The body of a request to a receiver: a run has a new state.
+         */
+        WebhookRun: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "run.state";
+            /**
+             * Timestamp
+             * @description When the change happened, in UTC, as in ISO 8601.
+             */
+            timestamp: string;
+            data: components["schemas"]["RunNews"];
         };
         /**
          * PlayMoves
@@ -7474,6 +7912,586 @@ export interface operations {
             };
         };
     };
+    listWebhooks: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WebhookList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    createWebhook: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WebhookCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NewWebhook"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getWebhook: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                webhook: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Webhook"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    deleteWebhook: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                webhook: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    patchWebhook: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                webhook: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WebhookPatch"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Webhook"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    pingWebhook: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                webhook: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Delivery"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The webhook is off */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listDeliveries: {
+        parameters: {
+            query?: {
+                state?: ("pending" | "delivered" | "given_up") | null;
+                /** @description Only messages older than this one. */
+                before?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                webhook: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeliveryPage"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    redeliver: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                webhook: number;
+                delivery: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Delivery"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The webhook is off */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     healthz: {
         parameters: {
             query?: never;
@@ -7602,6 +8620,30 @@ export interface operations {
                 };
                 content: {
                     "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    webhook: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WebhookAnswer"] | components["schemas"]["WebhookRun"] | components["schemas"]["WebhookPing"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": unknown;
                 };
             };
         };
