@@ -24,6 +24,7 @@ from waypost_learner.commands import (
     progress_bar,
     refuse,
 )
+from waypost_learner.exchange import cli as exchange_cli
 from waypost_learner.experiments import cli as experiments_cli
 from waypost_server import cli as server_cli
 
@@ -35,6 +36,7 @@ app = typer.Typer(
 )
 app.add_typer(server_cli.app)
 app.add_typer(experiments_cli.app)
+app.add_typer(exchange_cli.app)
 
 StoreOption = Annotated[
     Path | None, typer.Option("--store", help="The SQLite file; it is created if it does not exist.")

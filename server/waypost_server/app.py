@@ -26,6 +26,7 @@ from waypost_server.play import routes as play
 from waypost_server.play.relay import Relay
 from waypost_server.queries import frame_routes as frames
 from waypost_server.queries import routes as queries
+from waypost_server.records import routes as records
 from waypost_server.runs import routes as runs
 from waypost_server.settings import Settings
 from waypost_server.users import routes as users
@@ -36,6 +37,7 @@ from waypost_server.watch import system_routes as system
 
 API = "/api/v1"
 GZIP_BYTES = 8_192  # smaller responses are not compressed
+ROUTED = (runs, queries, leases, answers, play, watch, event_streams, frames, users, sessions, gold, practice, records)
 
 log = logging.getLogger("waypost")
 
@@ -53,7 +55,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lambda app: _lifespan(app, chosen),
     )
     api = APIRouter(prefix=API)
-    for module in (runs, queries, leases, answers, play, watch, event_streams, frames, users, sessions, gold, practice):
+    for module in ROUTED:
         api.include_router(module.router)
     app.include_router(api)
     app.include_router(system.router)
