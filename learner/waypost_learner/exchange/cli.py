@@ -1,4 +1,4 @@
-"""The commands `waypost export` and `waypost import`.
+"""The commands `waypost export`, `waypost import` and `waypost clone`.
 
 The module imports quickly: each command imports the packages that it needs when it runs.
 """
@@ -6,13 +6,22 @@ The module imports quickly: each command imports the packages that it needs when
 import json
 import shlex
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.console import Console
 
-from waypost_learner.commands import JsonOption, ServerOption, TokenOption, learner_errors, needed, refuse
+from waypost_learner.commands import (
+    JsonOption,
+    ServerOption,
+    TokenOption,
+    checkpoint_folder,
+    learner_errors,
+    needed,
+    refuse,
+)
 
 app = typer.Typer()
 
@@ -75,3 +84,44 @@ def import_run(
         typer.echo(json.dumps({"run": run.id, "episodes": run.episodes_done, "units": run.spent}))
     else:
         typer.echo(f"Imported run {run.id} ({run.name}): {run.episodes_done} episodes, {run.spent:g} units.")
+
+
+@app.command()
+def clone(
+    labels: Annotated[str, typer.Argument(help="The id of a run, or an export as jsonl or parquet.")],
+    algorithm: Annotated[str, typer.Option(help="h-bc, or flat-bc for flat labels.")] = "h-bc",
+    preset: Annotated[str, typer.Option(help="The preset: lean or paper.")] = "lean",
+    values: Annotated[str | None, typer.Option(help='Values to replace in the preset: "relabeling=false".')] = None,
+    seed: Annotated[int, typer.Option(min=0, help="The seed of every random choice.")] = 0,
+    episodes: Annotated[int | None, typer.Option(min=1, help="How many episodes to use. Default: all.")] = None,
+    store: Annotated[Path | None, typer.Option("--store", help="The SQLite file that contains the run.")] = None,
+    server: ServerOption = None,
+    token: TokenOption = "",
+    checkpoints: Annotated[
+        Path | None, typer.Option(help="The folder for the checkpoint. Default: as for `train`.")
+    ] = None,
+    threads: Annotated[int | None, typer.Option(min=1, help="CPU threads to train with.")] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Train by behavioral cloning on the labels of a run or of an export, without asking anybody."""
+    if store is not None and server is not None:
+        refuse("A server has its own store: give either --server or --store.")
+    with learner_errors("Interrupted."), ExitStack() as stack:
+        from waypost_learner.exchange.files import records_in
+        from waypost_learner.exchange.source import opened, records_of
+        from waypost_learner.exchange.training import train_on
+
+        if store is None and server is None:
+            records = records_in(Path(labels))
+        else:
+            source = stack.enter_context(opened(store, server or "", needed(token) if server else ""))
+            records = records_of(source, labels)
+        chosen = {"algorithm": algorithm, "preset": preset, "values": values, "seed": seed}
+        stack.enter_context(Console(stderr=True).status("Training."))
+        found = train_on(records, chosen, checkpoint_folder(checkpoints, store, server), episodes, threads)
+    if as_json:
+        typer.echo(json.dumps(vars(found)))
+    else:
+        typer.echo(f"Trained on {found.labels} labels of {found.episodes} episodes of run {found.run}.")
+        typer.echo(f"Success on unseen instances, trailing 100: {found.success_rate:.0%}")
+        typer.echo(f"`waypost evaluate {found.checkpoint}` finds the policies.")
