@@ -30,12 +30,17 @@ def export(source: Source, run: str, form: str, out: Path, names: bool, command:
         command: the command line, for the data card.
 
     Raises:
-        ValueError: the format is unknown, the folder exists, there is no such run, or the format cannot express it.
-        ModuleNotFoundError: the format needs a package that is not installed.
+        ValueError: the format is unknown or needs a package that is not installed, the folder exists, there is no such
+            run, or the format cannot express it.
     """
     if form not in FORMATS:
         raise ValueError(f"there is no format {form!r}; the formats are: {', '.join(FORMATS)}")
-    module = import_module(f"waypost_learner.exchange.formats.{form}")
+    try:
+        module = import_module(f"waypost_learner.exchange.formats.{form}")
+    except ImportError as error:
+        raise ValueError(
+            f"the format {form} needs a package ({error}): install it with `pip install 'waypost[learner,{form}]'`"
+        ) from error
     write: Write = module.write
     if out.exists():
         raise ValueError(f"{out} exists; give --out a folder that does not exist")
