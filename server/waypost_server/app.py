@@ -26,7 +26,6 @@ from waypost_server.play import routes as play
 from waypost_server.play.relay import Relay
 from waypost_server.queries import frame_routes as frames
 from waypost_server.queries import routes as queries
-from waypost_server.records import routes as records
 from waypost_server.runs import routes as runs
 from waypost_server.settings import Settings
 from waypost_server.users import routes as users
@@ -37,7 +36,7 @@ from waypost_server.watch import system_routes as system
 
 API = "/api/v1"
 GZIP_BYTES = 8_192  # smaller responses are not compressed
-ROUTED = (runs, queries, leases, answers, play, watch, event_streams, frames, users, sessions, gold, practice, records)
+ROUTED = (runs, queries, leases, answers, play, watch, event_streams, frames, users, sessions, gold, practice)
 
 log = logging.getLogger("waypost")
 

@@ -17,10 +17,10 @@ from waypost_server.db.engine import BadDatabase, Database
 from waypost_server.db.schema import NewerStore
 from waypost_server.errors import NotFound, Refusal
 from waypost_server.queries import frames
-from waypost_server.records import reading, restoring
 from waypost_server.runs import curves, listing, service
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
+from waypost_server.watch.records import reading, restoring
 
 _MOST_RUNS = 100_000
 
@@ -117,7 +117,9 @@ def restored(database: str, records: Callable[[], Iterable[wire.Record]]) -> wir
         with _unusable_store():
             db = stack.enter_context(closing(Database(database)))
         try:
-            return db.write_now(lambda tx: restoring.restore(tx, records(), users.ensure_administrator(tx).id))
+            return db.write_now(
+                lambda tx: restoring.restore(tx, records(), users.ensure_administrator(tx).id, users.ensure_former_user)
+            )
         except Refusal as refusal:
             raise ValueError(refusal.detail) from refusal
 

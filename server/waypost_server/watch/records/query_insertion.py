@@ -1,7 +1,7 @@
 """Inserts the queries of a run that is being recreated, with their assignments and answers."""
 
 import secrets
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,7 +16,9 @@ from waypost_server.db.transaction import Tx
 from waypost_server.errors import Location, Unprocessable
 from waypost_server.queries import checks, frames
 from waypost_server.queries.service import Content
-from waypost_server.users import service as users
+
+FindAnnotator = Callable[[Tx, str], int]
+"""Returns the id of an annotator by name."""
 
 _INSERT_QUERY = insert(queries).returning(queries.c.id, sort_by_parameter_order=True)
 _INSERT_ASSIGNMENT = insert(assignments).returning(assignments.c.id, sort_by_parameter_order=True)
@@ -34,6 +36,7 @@ class Target:
 
     run: wire.Run
     names: checks.Names
+    find_annotator: FindAnnotator
     annotators: dict[str, int] = field(default_factory=dict)  # ids by name
 
 
@@ -119,7 +122,7 @@ def _query_row(target: Target, record: wire.QueryRecord) -> dict[str, Any]:
 
 def _assignment_row(tx: Tx, target: Target, query: int, record: wire.AssignmentRecord) -> dict[str, Any]:
     if record.annotator not in target.annotators:
-        target.annotators[record.annotator] = users.ensure_former_user(tx, record.annotator)
+        target.annotators[record.annotator] = target.find_annotator(tx, record.annotator)
     return {
         "query_id": query,
         "user_id": target.annotators[record.annotator],

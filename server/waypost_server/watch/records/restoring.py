@@ -23,9 +23,9 @@ from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
 from waypost_server.errors import Location, Unprocessable
 from waypost_server.queries import checks, frames
-from waypost_server.records.query_insertion import Target, insert_queries
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
+from waypost_server.watch.records.query_insertion import FindAnnotator, Target, insert_queries
 
 AT_ONCE = 200  # records that are inserted with one statement
 MOST_FRAME_BYTES = 2**23
@@ -33,15 +33,14 @@ MOST_FRAME_BYTES = 2**23
 R = TypeVar("R")
 
 
-def restore(tx: Tx, records: Iterable[wire.Record], owner: int) -> wire.Run:
+def restore(tx: Tx, records: Iterable[wire.Record], owner: int, find_annotator: FindAnnotator) -> wire.Run:
     """Recreate a run and return it. It stays finished, so it can spend nothing more.
-
-    An annotator who has no user of the same name gets one, which is deactivated.
 
     Args:
         tx: the transaction.
         records: the run first, then its queries (each after the frames that it shows), its ledger and its episodes.
         owner: the user who imports it.
+        find_annotator: returns the id of an annotator by name; it may create a user.
 
     Raises:
         RunExists: the store has this run.
@@ -51,7 +50,7 @@ def restore(tx: Tx, records: Iterable[wire.Record], owner: int) -> wire.Run:
     first = next(stream, None)
     if not isinstance(first, wire.RunRecord):
         raise Unprocessable(["records", 0], "is not the run: the first record must be the run")
-    target = _create(tx, first.run, owner)
+    target = _create(tx, first.run, owner, find_annotator)
     try:
         for kind, some in groupby(stream, key=type):
             for batch in _batches(some):
@@ -70,7 +69,7 @@ def _batches(records: Iterator[R]) -> Iterator[list[R]]:
         yield batch
 
 
-def _create(tx: Tx, run: wire.Run, owner: int) -> Target:
+def _create(tx: Tx, run: wire.Run, owner: int, find_annotator: FindAnnotator) -> Target:
     if run.state != "finished":
         raise Unprocessable(["run", "state"], f"is {run.state}; finish the run and export it again")
     if tx.conn.execute(select(run_table.c.id).where(run_table.c.id == run.id)).one_or_none() is not None:
@@ -97,7 +96,7 @@ def _create(tx: Tx, run: wire.Run, owner: int) -> Target:
             gold_rate=run.gold_rate,
         )
     )
-    return Target(run, checks.Names.of(run.vocabulary))
+    return Target(run, checks.Names.of(run.vocabulary), find_annotator)
 
 
 def _store(tx: Tx, target: Target, kind: type, batch: Sequence[Any]) -> None:

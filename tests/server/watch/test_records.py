@@ -12,8 +12,8 @@ from tests.server.kit import Json, Service, frame, in_process, png, query, segme
 from waypost import wire
 from waypost_server import errors
 from waypost_server.db.engine import Database
-from waypost_server.records import reading, restoring
 from waypost_server.users import service as users
+from waypost_server.watch.records import reading, restoring
 
 EPISODE = {
     "warm_start": False,
@@ -87,7 +87,9 @@ def taken_in(url: str, records: list[Json]) -> wire.Run:
     """Recreate a run in the store at `url`."""
     values: list[Any] = [CLASSES[one["record"]].model_validate(one) for one in records]
     with closing(Database(url)) as db:
-        return db.write_now(lambda tx: restoring.restore(tx, values, users.ensure_administrator(tx).id))
+        return db.write_now(
+            lambda tx: restoring.restore(tx, values, users.ensure_administrator(tx).id, users.ensure_former_user)
+        )
 
 
 def test_a_run_that_was_taken_in_tells_what_the_originalal_tells(
