@@ -24,6 +24,7 @@ from waypost_learner.commands import (
     progress_bar,
     refuse,
 )
+from waypost_learner.exchange import cli as exchange_cli
 from waypost_learner.experiments import cli as experiments_cli
 from waypost_server import cli as server_cli
 
@@ -35,6 +36,7 @@ app = typer.Typer(
 )
 app.add_typer(server_cli.app)
 app.add_typer(experiments_cli.app)
+app.add_typer(exchange_cli.app)
 domain_app = typer.Typer(no_args_is_help=True, help="Domains: the installed ones, and checks of your own.")
 app.add_typer(domain_app, name="domain")
 

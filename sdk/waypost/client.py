@@ -163,6 +163,15 @@ class Client:
         """Return success and cost by episode."""
         return self._call(wire.Curves, "GET", f"/runs/{run}/curves")
 
+    def records(self, run: str, part: wire.RecordPart, after: int | None = None) -> wire.RecordPage:
+        """Return one page of a part of a run's records; `after` is the cursor of the page before."""
+        place = {} if after is None else {"after": after}
+        return self._call(wire.RecordPage, "GET", f"/runs/{run}/records", params={"part": part, **place})
+
+    def frame(self, frame: str) -> bytes:
+        """Return a picture as a PNG file, by its SHA-256."""
+        return self._send("GET", f"/frames/{frame}").content
+
     # --- the annotator's calls
 
     def lease(self, lease: wire.Lease) -> wire.Assignment | None:

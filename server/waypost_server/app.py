@@ -38,6 +38,7 @@ from waypost_server.webhooks.courier import delivering
 
 API = "/api/v1"
 GZIP_BYTES = 8_192  # smaller responses are not compressed
+ROUTED = (runs, queries, leases, answers, play, watch, event_streams, frames, users, sessions, gold, practice)
 
 log = logging.getLogger("waypost")
 
@@ -56,7 +57,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lambda app: _lifespan(app, chosen),
     )
     api = APIRouter(prefix=API)
-    for module in (runs, queries, leases, answers, play, watch, event_streams, frames, users, sessions, gold, practice):
+    for module in ROUTED:
         api.include_router(module.router)
     api.include_router(webhooks.router)
     app.include_router(api)

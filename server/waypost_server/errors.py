@@ -26,6 +26,7 @@ Refusal
 │   ├── RunFinished             a finished run does not allow this
 │   ├── BudgetTooLow            a budget below the units spent and reserved
 │   ├── NameTaken               a user with this name exists
+│   ├── RunExists               the store has the run that is being imported
 │   ├── NotActive               a deactivated user gets no login links or tokens
 │   ├── WebhookOff              a webhook that is off sends nothing
 │   └── LastAdministrator       no active administrator would be left
@@ -207,6 +208,12 @@ class NameTaken(Conflict):
     """A user with this name exists."""
 
     name, title = "name-taken", "The name is taken"
+
+
+class RunExists(Conflict):
+    """The store already has the run: it was made here, or imported before."""
+
+    name, title = "run-exists", "The store already has this run"
 
 
 class NotActive(Conflict):

@@ -3,7 +3,7 @@
 Apart from `cli.py` and `demo.py`, this is the only module of the learner that imports the server.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 
@@ -15,9 +15,12 @@ from waypost_server.app import create_app
 from waypost_server.auth import tokens
 from waypost_server.db.engine import BadDatabase, Database
 from waypost_server.db.schema import NewerStore
-from waypost_server.runs import curves, listing
+from waypost_server.errors import NotFound, Refusal
+from waypost_server.queries import frames
+from waypost_server.runs import curves, listing, service
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
+from waypost_server.watch.records import reading, restoring
 
 _MOST_RUNS = 100_000
 
@@ -65,6 +68,25 @@ class StoredRuns:
         """Return success and cost of a run, by episode."""
         return self._db.read_now(lambda tx: curves.curves(tx, run))
 
+    def run(self, run: str) -> wire.Run:
+        """Return a run.
+
+        Raises:
+            ValueError: the store has no such run.
+        """
+        try:
+            return self._db.read_now(lambda tx: service.view(tx, run))
+        except NotFound as refusal:
+            raise ValueError(refusal.detail) from refusal
+
+    def records(self, run: str, part: wire.RecordPart, after: int | None = None) -> wire.RecordPage:
+        """Return one page of a part of a run's records; `after` is the cursor of the page before."""
+        return self._db.read_now(lambda tx: reading.page(tx, run, part, after))
+
+    def frame(self, frame: str) -> bytes:
+        """Return a picture as a PNG file, by its SHA-256."""
+        return self._db.read_now(lambda tx: frames.find(tx, frame))
+
 
 @contextmanager
 def stored_runs(file: Path) -> Iterator[StoredRuns]:
@@ -79,6 +101,27 @@ def stored_runs(file: Path) -> Iterator[StoredRuns]:
         with _unusable_store():
             runs = StoredRuns(stack.enter_context(closing(Database(f"sqlite:///{file}"))))
         yield runs
+
+
+def restored(database: str, records: Callable[[], Iterable[wire.Record]]) -> wire.Run:
+    """Recreate a run in a store from its records, and return it. An administrator of the store owns it.
+
+    Args:
+        database: the URL of the store; an SQLite file is created if it does not exist.
+        records: returns the run first, then its frames, queries, ledger and episodes.
+
+    Raises:
+        ValueError: the store cannot be used or has the run, or a record is not valid. Nothing is stored then.
+    """
+    with ExitStack() as stack:
+        with _unusable_store():
+            db = stack.enter_context(closing(Database(database)))
+        try:
+            return db.write_now(
+                lambda tx: restoring.restore(tx, records(), users.ensure_administrator(tx).id, users.ensure_former_user)
+            )
+        except Refusal as refusal:
+            raise ValueError(refusal.detail) from refusal
 
 
 @contextmanager

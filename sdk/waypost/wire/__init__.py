@@ -16,6 +16,7 @@ from waypost.wire.gold import *
 from waypost.wire.people import *
 from waypost.wire.play import *
 from waypost.wire.queries import *
+from waypost.wire.records import *
 from waypost.wire.runs import *
 from waypost.wire.system import *
 from waypost.wire.watching import *

@@ -1,6 +1,8 @@
 """The ledger and the accounts of runs. Only this module changes them. Amounts are whole micro-units."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from sqlalchemy import bindparam, insert, update
 
@@ -84,6 +86,18 @@ def refund(tx: Tx, entry: Entry, account: Account, reserved: int) -> None:
         raise errors.BudgetExhausted("The run's budget has too few units left to have this query answered again.")
     _write(tx, "refund", entry, -1)
     _change(tx, entry.run, -entry.cost.units, reserved)
+
+
+def restore(tx: Tx, run: str, entries: Sequence[Mapping[str, Any]]) -> None:
+    """Insert the entries of an imported run as they were booked, and add them to the units that the run has spent.
+
+    Args:
+        tx: the transaction.
+        run: the run's id.
+        entries: rows of the ledger, in the order of their booking.
+    """
+    tx.conn.execute(_INSERT, entries)
+    _change(tx, run, sum(int(entry["units"]) for entry in entries), 0)
 
 
 def _write(tx: Tx, kind: str, entry: Entry, sign: int) -> None:

@@ -54,6 +54,15 @@ def ensure_user(tx: Tx, name: str, role: wire.Role) -> wire.User:
     return create_user(tx, name, role) if row is None else _of_row(row)
 
 
+def ensure_former_user(tx: Tx, name: str) -> int:
+    """Return the id of the user with this name; if there is none, create an annotator who is deactivated."""
+    known = tx.conn.execute(select(users.c.id).where(users.c.name == name)).scalar_one_or_none()
+    if known is not None:
+        return int(known)
+    former = insert(users).values(name=name, role="annotator", created_at=tx.now, deactivated_at=tx.now)
+    return int(tx.conn.execute(former.returning(users.c.id)).scalar_one())
+
+
 def ensure_administrator(tx: Tx) -> wire.User:
     """Return the user `admin` if that is an administrator, else the first administrator; create `admin` if needed."""
     rows = tx.conn.execute(

@@ -14,6 +14,7 @@ from waypost_server.http.parameters import RowPath, RowQuery
 from waypost_server.http.problems import refusals
 from waypost_server.runs import service as runs
 from waypost_server.watch import at_work, export, ledger_rows, query_history, query_rows
+from waypost_server.watch.records import reading
 from waypost_server.watch.row_pages import RowPage
 
 router = APIRouter(tags=["watching"], route_class=JsonRoute)
@@ -58,6 +59,18 @@ async def list_ledger(
     chosen = ledger_rows.LedgerFilter(kind, entry)
     page = RowPage(before, after, limit)
     return await context.db.read(lambda tx: ledger_rows.ledger_page(tx, run, chosen, page))
+
+
+@router.get("/runs/{run}/records", operation_id="listRecords", responses=refusals(errors.NotFound))
+async def list_records(
+    run: str,
+    context: Ctx,
+    _: AnyoneCalls,
+    part: wire.RecordPart,
+    after: Annotated[int | None, Query(ge=0, le=2**62, description="The cursor of the page before.")] = None,
+) -> wire.RecordPage:
+    """List one page of a run's records: its queries with their histories, its ledger, or its episodes."""
+    return await context.db.read(lambda tx: reading.page(tx, run, part, after))
 
 
 @router.get("/queries/{query}/history", operation_id="getHistory", responses=refusals(errors.NotFound))

@@ -357,6 +357,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/records": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Records
+         * @description List one page of a run's records: its queries with their histories, its ledger, or its episodes.
+         */
+        get: operations["listRecords"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/queries/{query}/history": {
         parameters: {
             query?: never;
@@ -1151,6 +1171,39 @@ export interface components {
             next?: components["schemas"]["Lease"] | null;
         };
         /**
+         * AnswerRecord
+         * @description An answer as it was stored.
+         */
+        AnswerRecord: {
+            /** Content */
+            content: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            /**
+             * Revision
+             * @description How often the query had been retracted before this answer; null if the answer was late.
+             */
+            revision: number | null;
+            /**
+             * Units
+             * @description The charged units; 0 if the answer was late.
+             */
+            units: number;
+            /**
+             * Seconds
+             * @description The time from lease to answer, in seconds.
+             */
+            seconds: number;
+            /**
+             * Active Seconds
+             * @description The annotator's working time without idle time, in seconds.
+             */
+            active_seconds: number;
+            /**
+             * At
+             * @description When it was given, in seconds since the epoch.
+             */
+            at: number;
+        };
+        /**
          * AskHierDemo
          * @description HierDemo(s): carry out the task from state s, and return the hierarchical trajectory (or a flat one).
          */
@@ -1757,6 +1810,48 @@ export interface components {
             assignments: components["schemas"]["Assignment"][];
         };
         /**
+         * AssignmentRecord
+         * @description One assignment of a query: who held it, how it ended, and the answer that came of it.
+         */
+        AssignmentRecord: {
+            /**
+             * Annotator
+             * @description The annotator's name or pseudonym.
+             */
+            annotator: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "live" | "answered" | "skipped" | "released" | "expired" | "cancelled";
+            /**
+             * Deferring
+             * @description Whether the annotator leaves queries to others for a while.
+             */
+            deferring: boolean;
+            /**
+             * Reason
+             * @description The annotator's reason for skipping or releasing it.
+             */
+            reason: string | null;
+            /**
+             * Leased At
+             * @description When the lease began, in seconds since the epoch.
+             */
+            leased_at: number;
+            /**
+             * Expires At
+             * @description When the lease expired, in seconds since the epoch.
+             */
+            expires_at: number;
+            /**
+             * Ended At
+             * @description When the assignment ended, in seconds since the epoch; null if it is live.
+             */
+            ended_at: number | null;
+            answer: components["schemas"]["AnswerRecord"] | null;
+        };
+        /**
          * AtWork
          * @description An annotator who recently asked for work or holds a query, sent by the server.
          */
@@ -2038,6 +2133,23 @@ export interface components {
         EpisodeList: {
             /** Episodes */
             episodes: components["schemas"]["EpisodeResult"][];
+        };
+        /**
+         * EpisodeRecord
+         * @description The result of an episode.
+         */
+        EpisodeRecord: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            record: "episode";
+            result: components["schemas"]["EpisodeResult"];
+            /**
+             * At
+             * @description When it was reported, in seconds since the epoch.
+             */
+            at: number;
         };
         /**
          * EpisodeResult
@@ -2626,6 +2738,68 @@ export interface components {
             spent: number;
         };
         /**
+         * LedgerRecord
+         * @description One entry of the ledger: a charge, or a refund with negative amounts.
+         */
+        LedgerRecord: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            record: "ledger";
+            /**
+             * Entry
+             * @enum {string}
+             */
+            entry: "charge" | "refund";
+            /**
+             * Kind
+             * @description The kind of the query.
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /**
+             * Episode
+             * @description The number of the episode in the run, from 0.
+             */
+            episode: number;
+            /**
+             * Ordinal
+             * @description The number of the query in the episode, from 0.
+             */
+            ordinal: number;
+            /**
+             * Revision
+             * @description The revision of the answer that was charged or refunded.
+             */
+            revision: number;
+            /**
+             * Units
+             * @description The cost of the answer, in units.
+             */
+            units: number;
+            /**
+             * Lo Units
+             * @description The part of `units` for LO labels: actions and terminations.
+             */
+            lo_units: number;
+            /**
+             * Seconds
+             * @description The time from lease to answer, in seconds.
+             */
+            seconds: number;
+            /**
+             * Active Seconds
+             * @description The working time without idle time, in seconds.
+             */
+            active_seconds: number;
+            /**
+             * At
+             * @description When it was booked, in seconds since the epoch.
+             */
+            at: number;
+        };
+        /**
          * Login
          * @description The one-time code of a login link, sent by a browser.
          */
@@ -3193,6 +3367,49 @@ export interface components {
             oldest: number | null;
         };
         /**
+         * QueryRecord
+         * @description A query with its answer and its whole history. (episode, ordinal) in `ask` identifies it in its run.
+         */
+        QueryRecord: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            record: "query";
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "open" | "leased" | "answered" | "cancelled";
+            /**
+             * Priority
+             * @description Queries with a higher priority were handed out first.
+             */
+            priority: number;
+            /**
+             * Used
+             * @description Whether the learner has used the answer.
+             */
+            used: boolean;
+            /**
+             * Created At
+             * @description When the learner asked, in seconds since the epoch.
+             */
+            created_at: number;
+            /**
+             * Ask
+             * @description The query as the learner asked it.
+             */
+            ask: components["schemas"]["AskHierDemo"] | components["schemas"]["AskInspectFull"] | components["schemas"]["AskLabelHi"] | components["schemas"]["AskInspectLo"] | components["schemas"]["AskLabelLo"] | components["schemas"]["AskLabelFull"];
+            /** @description The assignment with the answer that counts. */
+            answered: components["schemas"]["AssignmentRecord"] | null;
+            /**
+             * Earlier
+             * @description All other assignments, oldest first.
+             */
+            earlier: components["schemas"]["AssignmentRecord"][];
+        };
+        /**
          * QueryRow
          * @description A query and its answer without the trajectory, as a row of a table; sent by the server.
          */
@@ -3307,6 +3524,19 @@ export interface components {
             active_seconds: number;
             /** @description The next assignment, if one was requested and is available. */
             next: components["schemas"]["Assignment"] | null;
+        };
+        /**
+         * RecordPage
+         * @description One page of a part of a run's records, sent by the server.
+         */
+        RecordPage: {
+            /** Records */
+            records: (components["schemas"]["QueryRecord"] | components["schemas"]["LedgerRecord"] | components["schemas"]["EpisodeRecord"])[];
+            /**
+             * Cursor
+             * @description The cursor for the next page; null after the last record.
+             */
+            cursor: number | null;
         };
         /**
          * Release
@@ -5754,6 +5984,77 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["LedgerPage"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listRecords: {
+        parameters: {
+            query: {
+                part: "queries" | "ledger" | "episodes";
+                /** @description The cursor of the page before. */
+                after?: number | null;
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordPage"];
                 };
             };
             /** @description Log in first */
