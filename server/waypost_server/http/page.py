@@ -7,6 +7,7 @@ app. Its address in the API is open to everyone, as is the OpenAPI document that
 
 from functools import cache
 from html import escape
+from itertools import pairwise
 from pathlib import Path
 
 from fastapi import FastAPI
@@ -75,7 +76,7 @@ def html(document: reference.Json, address: str) -> str:
 def _name_headings(tokens: list[Token]) -> list[tuple[str, str]]:
     """Give every heading its address; return (tag, text) of each, such as ("h2", "Messages")."""
     headings = []
-    for opening, inline in zip(tokens, tokens[1:], strict=False):
+    for opening, inline in pairwise(tokens):
         if opening.type == "heading_open":
             text = "".join(child.content for child in inline.children or [])
             opening.attrSet("id", reference.slug(text))
