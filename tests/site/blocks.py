@@ -7,7 +7,7 @@ A block is run as it is written. A comment on the line before it can change this
     <!-- tested with a short training -->                  every `waypost train` runs two episodes with little training
     <!-- runs until it is stopped -->                      the rest of the page runs beside it
 
-A block with `waypost sweep` takes hours, so it is not run, either. At the top of a page, the comment `<!-- tested
+A block with `waypost sweep` takes hours, so it is not run, either. Below the title of a page, the comment `<!-- tested
 beside a server with a query -->` starts a server first.
 """
 

@@ -5,7 +5,7 @@ The server shows it at `/api/docs` (`page.py`), and the documentation site has i
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -67,7 +67,7 @@ def _calls(document: Json) -> Iterator[str]:
 
 
 def _call(name: str, operation: Json) -> str:
-    lines = [f"### `{name}`", operation.get("description", operation["summary"])]
+    lines = [f"### `{name}`", operation["description"]]
     if "security" not in operation:
         lines.append("This call needs no login.")
     if parameters := operation.get("parameters"):
@@ -201,7 +201,7 @@ def _json(value: Any) -> str:
     return value if isinstance(value, str) and value else json.dumps(value)
 
 
-def _table(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+def _table(heads: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
     def line(cells: tuple[str, ...]) -> str:
         return "| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in cells) + " |"
 

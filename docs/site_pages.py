@@ -6,6 +6,7 @@ MkDocs calls these hooks (`mkdocs.yml`).
 import json
 import posixpath
 import re
+from functools import cache
 from pathlib import Path
 
 from mkdocs.config.defaults import MkDocsConfig
@@ -49,18 +50,23 @@ def on_files(files: Files, config: MkDocsConfig) -> None:
     """Add the pages and files that are not in docs/."""
     for path, address in OUTSIDE.items():
         files.append(File.generated(config, address, abs_src_path=str(ROOT / path)))
-    document = create_app().openapi()
-    text = reference.markdown(document).replace("`/api/v1/openapi.json`", "[openapi.json](openapi.json)")
-    files.append(File.generated(config, "rest-api.md", content=text))
-    files.append(File.generated(config, "openapi.json", content=json.dumps(document, indent=2)))
+    files.append(File.generated(config, "openapi.json", content=json.dumps(openapi(), indent=2)))
     for notebook in [file for file in files if file.src_uri.endswith(".ipynb")]:
         page = notebook.src_uri.removesuffix(".ipynb") + ".md"
         files.append(File.generated(config, page, content=from_notebook(notebook.content_string)))
 
 
+@cache
+def openapi() -> reference.Json:
+    """Return the OpenAPI document."""
+    return create_app().openapi()
+
+
 def on_page_markdown(markdown: str, page: Page, **_: object) -> str:
-    """Rewrite links between docs/ and the files outside it to their addresses in the site."""
+    """Write the reference of the API; rewrite links between docs/ and the files outside it to their addresses here."""
     here = page.file.src_uri
+    if here == "rest-api.md":
+        return reference.markdown(openapi()).replace("`/api/v1/openapi.json`", "[openapi.json](openapi.json)")
     source = next((path for path, address in OUTSIDE.items() if address == here), f"docs/{here}")
 
     def rewritten(match: re.Match[str]) -> str:
