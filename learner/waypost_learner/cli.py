@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
-from waypost.wire import EpisodeResult, Receipt, Run, RunPatch
+from waypost.wire import Assignment, EpisodeResult, Receipt, Run, RunPatch
 from waypost_learner.commands import (
     JsonOption,
     PatienceOption,
@@ -35,6 +35,8 @@ app = typer.Typer(
 )
 app.add_typer(server_cli.app)
 app.add_typer(experiments_cli.app)
+domain_app = typer.Typer(no_args_is_help=True, help="Domains: the installed ones, and checks of your own.")
+app.add_typer(domain_app, name="domain")
 
 StoreOption = Annotated[
     Path | None, typer.Option("--store", help="The SQLite file; it is created if it does not exist.")
@@ -93,7 +95,9 @@ def train(
         config = TrainConfig(
             algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start, values
         )
-        set_up(config, threads)  # refuses a wrong configuration before the store is created
+        setup = set_up(config, threads)  # refuses a wrong configuration before the store is created
+        for part, instead in setup.missing.items():
+            typer.echo(f"The domain {domain!r} provides no {part}. {instead}", err=True)
         options = RunOptions(name, budget, resume, checkpoint_folder(checkpoints, store, server), threads)
         with ExitStack() as stack:
             connection = stack.enter_context(
@@ -137,6 +141,9 @@ def oracle(
     token: TokenOption = "",
     run: Annotated[str | None, typer.Option(help="Answer only this run's queries.")] = None,
     kinds: Annotated[str | None, typer.Option(help="Answer only these kinds, comma-separated.")] = None,
+    domain: Annotated[
+        str | None, typer.Option(help="A domain that is not installed, MODULE:ATTRIBUTE, whose queries to answer.")
+    ] = None,
     error_rate: Annotated[float, typer.Option(min=0, max=1, help="Share of answers with random labels.")] = 0.0,
     seconds: Annotated[float, typer.Option(min=0, help="Seconds to wait before each answer.")] = 0.0,
     defer: Annotated[float, typer.Option(min=0, help="Seconds for which to leave queries to people.")] = 0.0,
@@ -147,10 +154,12 @@ def oracle(
     chosen = _kinds(kinds)
     with learner_errors():
         from waypost.client import Client
+        from waypost.domains import find_domain
         from waypost_learner.experts.bot import Bot, BotSettings
 
         client = Client(server, needed(token), patience=patience)
-        bot = Bot(client, BotSettings(run, chosen, error_rate, seconds, defer, seed))
+        domains = [] if domain is None else [find_domain(domain)]
+        bot = Bot(client, BotSettings(run, chosen, error_rate, seconds, defer, seed), domains, _report_failure)
         answers, units = 0, 0.0
 
         console = Console(stderr=True)
@@ -224,6 +233,37 @@ def practice(
     typer.echo(f"The practice queries are in {file}.")
 
 
+@domain_app.command("list")
+def list_domains() -> None:
+    """List the installed domains."""
+    with learner_errors():
+        from waypost.domains import installed
+
+        for name in installed():
+            typer.echo(name)
+
+
+@domain_app.command("check")
+def check_domain(
+    name: Annotated[str, typer.Argument(help="The domain's name, or MODULE:ATTRIBUTE if it is not installed.")],
+    as_json: JsonOption = False,
+) -> None:
+    """Check that a domain keeps the contract, and explain what fails. The exit status is 1 if something fails."""
+    with learner_errors():
+        from waypost.domains.conformance import check_domain as check
+
+        results = check(name)
+    if as_json:
+        typer.echo(json.dumps([vars(result) for result in results]))
+    else:
+        for result in results:
+            typer.echo(f"{'FAILS' if result.failures else 'ok   '}  {result.check}")
+            for failure in result.failures:
+                typer.echo(f"       {failure}")
+    if results[-1].failures:
+        raise typer.Exit(1)
+
+
 def main() -> None:
     """Run `waypost`."""
     app()
@@ -266,9 +306,16 @@ class _TrainingProgress:
 
     def episode(self, result: EpisodeResult, units: float) -> None:
         del units
-        self._tests = [*self._tests, bool(result.test_success)][-100:]
-        rate = sum(self._tests) / len(self._tests)
+        if result.test_success is not None:
+            self._tests = [*self._tests, result.test_success][-100:]
+        rate = sum(self._tests) / max(len(self._tests), 1)
         self._bar.update(self._task, advance=1, description=f"success {rate:.0%} (trailing {len(self._tests)})")
+
+
+def _report_failure(assignment: Assignment, error: Exception) -> None:
+    """Say which query the bot left to others, and why."""
+    query = assignment.query
+    typer.echo(f"Query {query.id} of run {assignment.run.id} is left to others: {error}", err=True)
 
 
 def _print_summary(summary: dict[str, Any], as_json: bool) -> None:

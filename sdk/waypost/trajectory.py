@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 Subgoal = int
 Action = int
 
+Observation = NDArray[Any]
+"""An observation: float32, or uint8, which networks see divided by 255."""
+
 Outcome = Literal["reached", "failed"]
 """How a subgoal ended if its termination is given (Algorithm 3): "reached" is success(s; g), "failed" is terminal(s; g)
 without success."""
@@ -22,8 +25,10 @@ without success."""
 class State:
     """One environment state s: the observation for networks, and the JSON view for experts."""
 
-    observation: NDArray[np.float32]
+    observation: Observation
     view: Any
+    snapshot: Any = None  # of the environment, where trajectories are replayed by snapshots
+    picture: NDArray[np.uint8] | None = None  # uint8[rows, columns, 3], where trajectories are recorded
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ import waypost
 
 
 def test_the_public_names_are_these() -> None:
-    assert waypost.__all__ == ["Client", "Refused", "Unreachable", "prices", "wire"]
+    assert waypost.__all__ == ["Client", "Refused", "Unreachable", "domain", "prices", "wire"]
     assert all(hasattr(waypost, name) for name in waypost.__all__)
 
 

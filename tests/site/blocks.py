@@ -6,6 +6,7 @@ A block is run as it is written. A comment on the line before it can change this
     <!-- tested with `NEW` instead of `OLD` -->            for example less training
     <!-- tested with a short training -->                  every `waypost train` runs two episodes with little training
     <!-- runs until it is stopped -->                      the rest of the page runs beside it
+    <!-- saved as `FILE` -->                               the block is a file, which later blocks use
 
 A block with `waypost sweep` takes hours, so it is not run, either. Below the title of a page, the comment `<!-- tested
 beside a server with a query -->` starts a server first.
@@ -13,6 +14,7 @@ beside a server with a query -->` starts a server first.
 
 import re
 from dataclasses import dataclass
+from itertools import repeat
 from pathlib import Path
 
 from markdown_it import MarkdownIt
@@ -24,6 +26,7 @@ LANGUAGES = {"sh", "python", "json", "toml", "yaml", "text"}  # text is what a p
 _COMMENT = re.compile(r"<!-- (.+?) -->", re.DOTALL)
 _NOT_RUN = re.compile(r"not run: (.+); (\S+)")
 _INSTEAD = re.compile(r"tested with `([^`]+)` instead of `([^`]+)`")
+_SAVED = re.compile(r"saved as `([^`]+)`")
 _BESIDE = "<!-- tested beside a server with a query -->"
 _LITTLE = " ".join(f"train_{level}.{rows}=64" for level in ("hi", "lo") for rows in ("least", "most", "idle"))
 
@@ -41,10 +44,11 @@ class Block:
     def unknown_comments(self) -> list[str]:
         """The comments that this module does not know."""
         known = {"tested with a short training", "runs until it is stopped"}
+        patterns = (_NOT_RUN, _INSTEAD, _SAVED)
         return [
             one
             for one in self.comments
-            if one not in known and not _NOT_RUN.fullmatch(one) and not _INSTEAD.fullmatch(one)
+            if one not in known and not any(map(re.Pattern.fullmatch, patterns, repeat(one)))
         ]
 
     @property
@@ -54,6 +58,12 @@ class Block:
             return "a sweep takes hours", ROOT / "tests" / "learner" / "experiments" / "test_sweep.py"
         found = next(filter(None, map(_NOT_RUN.fullmatch, self.comments)), None)
         return (found[1], ROOT / found[2]) if found else None
+
+    @property
+    def file(self) -> str | None:
+        """The name of the file that the reader saves the block as."""
+        found = next(filter(None, map(_SAVED.fullmatch, self.comments)), None)
+        return found[1] if found else None
 
     @property
     def endless(self) -> bool:

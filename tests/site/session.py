@@ -54,11 +54,14 @@ class Session:
     def run(self, block: Block) -> None:
         """Run a block of shell commands or of Python; an `endless` one is started, and must then listen."""
         text = self._filled_in(block.tested)
-        if block.language == "python":
+        if block.file:
+            (self.folder / block.file).write_text(text)
+        elif block.language == "python":
             self._run_python(block.place, text)
         elif block.endless:
             self._endless.append((block, self._start(text)))
-            self._wait_until_it_listens(block)
+            if "waypost serve" in text:
+                self._wait_until_it_listens(block)
         else:
             self._run_shell(block.place, text)
 
@@ -66,6 +69,7 @@ class Session:
         """Return the text with the session's port, and with what earlier blocks printed in place of RUN and wp_..."""
         if "waypost serve" in text:
             self.port = free_port()
+            self._environment["WAYPOST_SERVER"] = DEFAULT_SERVER.replace("8000", str(self.port))
             text = re.sub(r"\bwaypost serve\b", f"waypost serve --port {self.port}", text)
         text = re.sub(r"\bwaypost (oracle|gold)\b(?!.*--server)", rf"waypost \1 --server {DEFAULT_SERVER}", text)
         text = re.sub(r"(?<=:)8000\b", str(self.port), text).replace(DATABASE, self.postgresql)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from waypost.domains import Domain, Structured, Symmetry
+from waypost.domains import Domain, Placed, Relabeling, Retracing, Symmetry, symmetries_of
 from waypost.trajectory import Trajectory
 from waypost_learner.policies.datasets import Dataset
 from waypost_learner.policies.dqn import QFunction
@@ -89,13 +89,13 @@ class Learner:
 
     # --- rollouts
 
-    def make_simulator(self) -> Simulator:
-        """Return a new simulator, with this learner's head start."""
-        return Simulator(self.domain, self._head_start)
+    def make_simulator(self, pictures: bool = False) -> Simulator:
+        """Return a new simulator, with this learner's head start; `pictures` as in `Simulator`."""
+        return Simulator(self.domain, self._head_start, pictures)
 
-    def start(self, instance: Any, draw: int) -> Start:
+    def start(self, instance: Any, draw: int, pictures: bool = False) -> Start:
         """Return the start state s of an instance; `draw` is the number of this instance in the run."""
-        simulator = self.make_simulator()
+        simulator = self.make_simulator(pictures)
         return Start(simulator.reset(instance), instance, draw, simulator)
 
     def roll_out(self, s: Start) -> Trajectory:
@@ -132,7 +132,7 @@ class Learner:
             {key: q.epsilon if stream == streams.TRAIN else 0.0 for key, q in exploring.items()},
             self.levels.q_lo,
             rollouts.repeat_penalty,
-            self.domain.place if isinstance(self.domain, Structured) else unique_place,
+            self.domain.place if isinstance(self.domain, Placed) else unique_place,
         )
         roll_out = flat_rollout if self.levels.flat else hierarchical_rollout
         return roll_out(simulator, instance, behavior)
@@ -146,9 +146,10 @@ class Learner:
         """
         sizes = {key: len(data) for key, data in self.data.items()}
         use, dqn = self.preset.use, self.preset.training.dqn
-        relabeling = self.domain if use.relabeling and isinstance(self.domain, Structured) else None
-        self._append_rows(rows_of(labels, relabeling), self.domain.symmetries if use.symmetries else ())
-        self._append_transitions(transitions_of(labels), self.domain.symmetries if dqn.symmetries else ())
+        relabeling = self.domain if isinstance(self.domain, Relabeling | Retracing) else None
+        rows = rows_of(labels, relabeling if use.relabeling else None)
+        self._append_rows(rows, symmetries_of(self.domain) if use.symmetries else ())
+        self._append_transitions(transitions_of(labels), symmetries_of(self.domain) if dqn.symmetries else ())
         self.due = [
             key
             for key, policy in self.imitators.items()

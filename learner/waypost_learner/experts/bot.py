@@ -5,7 +5,7 @@ valid: its labels are drawn at random.
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,8 @@ from waypost_learner.experts.oracle import OracleExpert
 
 _LOST = frozenset({"lease-expired", "lease-ended", "query-cancelled"})
 """Refusals that mean that the bot no longer holds the query. It continues with the next one."""
+
+LONGEST_REASON = 500  # characters; the server refuses longer ones
 
 
 @dataclass(frozen=True)
@@ -37,12 +39,21 @@ class Bot:
     Args:
         client: the client of a user who may answer.
         settings: which queries to answer, and how; if None, answer all queries, correctly and at once.
+        domains: domains that are not installed; others are found by their names.
+        on_failure: called with a query that the oracle could not answer, and the reason; the bot returns the query to
+            the queue, for others. If None, the bot raises the error.
     """
 
-    def __init__(self, client: Client, settings: BotSettings | None = None) -> None:
+    def __init__(
+        self,
+        client: Client,
+        settings: BotSettings | None = None,
+        domains: Sequence[Domain] = (),
+        on_failure: Callable[[wire.Assignment, Exception], None] | None = None,
+    ) -> None:
+        self._on_failure = on_failure
         self._client, self._settings = client, settings or BotSettings()
-        self._experts: dict[str, OracleExpert] = {}
-        self._domains: dict[str, Domain] = {}
+        self._experts = {domain.name: OracleExpert(domain) for domain in domains}
         self._rng = np.random.default_rng(self._settings.seed)
 
     def work(self, wait: float = 20.0, on_answer: Callable[[wire.Receipt], None] = lambda _: None) -> None:
@@ -72,7 +83,14 @@ class Bot:
     def _answer(self, assignment: wire.Assignment, following: wire.Lease) -> wire.Receipt | None:
         if self._settings.seconds:
             time.sleep(self._settings.seconds)
-        answer = self._expert(assignment.run.vocabulary.domain)(assignment.query.ask)
+        try:
+            answer = self._expert(assignment.run.vocabulary.domain)(assignment.query.ask)
+        except Exception as error:
+            if self._on_failure is None:
+                raise
+            self._client.release(assignment, reason=str(error)[:LONGEST_REASON], skip=True)
+            self._on_failure(assignment, error)
+            return None
         if self._rng.random() < self._settings.error_rate:
             answer = self._mistaken(answer, assignment.run.vocabulary)
         try:

@@ -4,13 +4,14 @@ It needs only the content of a wire query, so the in-process expert and the orac
 learner's own choice is right, this choice becomes the label: a tie counts as agreement.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from waypost import wire
-from waypost.domains import Domain
+from waypost.domains import Domain, Predicting, Reopened, oracle_of
 from waypost.trajectory import Action
 from waypost_learner.experts.solutions import solve
+from waypost_learner.rollout.simulator import Simulator
 
 
 class OracleExpert:
@@ -24,9 +25,10 @@ class OracleExpert:
     """
 
     def __init__(self, domain: Domain) -> None:
-        if domain.oracle is None:
+        oracle = oracle_of(domain)
+        if oracle is None:
             raise ValueError(f"the domain {domain.name!r} has no oracle: its queries need people (--expert queue)")
-        self._domain, self._oracle = domain, domain.oracle
+        self._domain, self._oracle = domain, oracle
 
     def __call__(self, ask: wire.Ask) -> wire.Answer:
         """Answer one query."""
@@ -36,20 +38,50 @@ class OracleExpert:
         return _preferred(ask, solve(self._domain, ask).known)
 
     def demonstrate(self, instance: Any, state: Any) -> wire.HierDemoAnswer:
-        """Return the oracle's demonstration from a state, given by its JSON view, until the task is accomplished."""
-        segments = []
-        while not self._oracle.succeeded(instance, state):
-            subgoal = self._oracle.good_subgoals(instance, state)[0]
+        """Return the oracle's demonstration from a state, given by its JSON view, until the task is accomplished.
+
+        An oracle that does not predict the next state acts in the domain's environment, from the start of the instance;
+        then a demonstration may also end with the episode.
+
+        Raises:
+            ValueError: the oracle cannot demonstrate; the message says what is missing.
+        """
+        follow, segments = self._follow(instance), list[wire.DemoSegment]()
+        ended, steps = self._oracle.succeeded(instance, state), 0
+        while not ended:
+            subgoal = self._first(self._oracle.good_subgoals(instance, state), "good_subgoals", state)
             origin, actions = state, list[Action]()
-            while not actions or not self._oracle.reached(instance, origin, state, subgoal):
-                actions.append(self._oracle.good_actions(instance, origin, state, subgoal)[0])
-                state = self._oracle.successor(instance, state, actions[-1])
+            while not ended and (not actions or not self._oracle.reached(instance, origin, state, subgoal)):
+                good = self._oracle.good_actions(instance, origin, state, subgoal)
+                actions.append(self._first(good, "good_actions", state))
+                state, over = follow(state, actions[-1])
+                steps += 1
+                ended = over or steps == self._domain.horizons.full or self._oracle.succeeded(instance, state)
             segments.append(
                 wire.DemoSegment(
                     subgoal=self._domain.subgoals[subgoal], actions=[self._domain.actions[a] for a in actions]
                 )
             )
         return wire.HierDemoAnswer(kind="hier_demo", segments=segments)
+
+    def _first(self, good: Sequence[int], function: str, state: Any) -> int:
+        if not good:
+            raise ValueError(f"the oracle of {self._domain.name!r} is stuck: {function} is empty in the state {state}")
+        return good[0]
+
+    def _follow(self, instance: Any) -> Callable[[Any, Action], tuple[Any, bool]]:
+        """Return a function that carries out an action in a state: the next state, and whether the episode is over."""
+        if isinstance(self._oracle, Predicting):
+            successor = self._oracle.successor
+            return lambda state, action: (successor(instance, state, action), False)
+        if not isinstance(self._domain, Reopened):
+            raise ValueError(
+                f"the oracle of {self._domain.name!r} cannot demonstrate: it needs successor(instance, state, action), "
+                "or the domain needs instance_from(view)"
+            )
+        simulator = Simulator(self._domain)
+        simulator.reset(self._domain.instance_from(instance))
+        return lambda _, action: (simulator.step(action).view, simulator.ended)
 
 
 def _preferred(ask: Any, known: wire.Known) -> wire.Answer:

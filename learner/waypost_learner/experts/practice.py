@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from waypost import wire
-from waypost.domains import Domain
+from waypost.domains import Domain, oracle_of
 from waypost.trajectory import Segment, Trajectory, n_steps
 from waypost_learner.algorithms.queries import InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, Query
 from waypost_learner.experts.solutions import solve
@@ -53,7 +53,7 @@ def practice(domain: Domain, instances: str, seed: int) -> str:
 
 def _rollouts(domain: Domain, instances: str, seed: int) -> Iterator[Rollout]:
     """Yield rollouts of a learner that mostly follows the oracle."""
-    oracle, rng, simulator = domain.oracle, np.random.default_rng(seed), Simulator(domain)
+    oracle, rng, simulator = oracle_of(domain), np.random.default_rng(seed), Simulator(domain)
     if oracle is None:
         raise ValueError(f"the domain {domain.name!r} has no oracle, so its right answers are not known")
     train = domain.instances(instances).train

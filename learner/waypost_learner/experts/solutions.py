@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from waypost import wire
-from waypost.domains import Domain, Oracle
+from waypost.domains import Domain, Oracle, oracle_of
 
 
 @dataclass(frozen=True)
@@ -25,25 +25,26 @@ def solve(domain: Domain, ask: wire.Ask) -> Solution:
     Raises:
         ValueError: the domain has no oracle, or the query is a demonstration, which has many equally good answers.
     """
-    if domain.oracle is None:
+    oracle = oracle_of(domain)
+    if oracle is None:
         raise ValueError(f"the domain {domain.name!r} has no oracle, so its right answers are not known")
     match ask:
         case wire.AskInspectFull():
-            passed = domain.oracle.succeeded(ask.instance, ask.segments[-1].states[-1])
+            passed = oracle.succeeded(ask.instance, ask.segments[-1].states[-1])
             reason = f"The task is {_accomplished(passed)} in the last state."
             return Solution(_verdict(ask.kind, passed), (reason,))
         case wire.AskInspectLo():
             (segment,) = ask.segments
             first, last = segment.states[0], segment.states[-1]
-            passed = domain.oracle.reached(ask.instance, first, last, _subgoal(domain, segment))
+            passed = oracle.reached(ask.instance, first, last, _subgoal(domain, segment))
             reason = f"In the last state {_quoted(segment.subgoal)} is {_accomplished(passed)}."
             return Solution(_verdict(ask.kind, passed), (reason,))
         case wire.AskLabelHi():
-            return _subgoals(domain, domain.oracle, ask)
+            return _subgoals(domain, oracle, ask)
         case wire.AskLabelLo():
-            return _segment(domain, domain.oracle, ask)
+            return _segment(domain, oracle, ask)
         case wire.AskLabelFull():
-            return _actions(domain, domain.oracle, ask)
+            return _actions(domain, oracle, ask)
         case wire.AskHierDemo():
             raise ValueError("a demonstration has no single right answer: many are equally good")
 

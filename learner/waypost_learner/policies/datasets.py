@@ -5,6 +5,7 @@ three: a label that the expert did not give, the action in a state where the seg
 segment's first state, where it is never evaluated (docs/paper.md, deviation 4).
 """
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -13,6 +14,8 @@ import lz4.block
 import numpy as np
 import torch
 
+from waypost.trajectory import Observation
+
 UNLABELED = -1
 
 
@@ -20,7 +23,7 @@ UNLABELED = -1
 class Row:
     """One labeled state."""
 
-    observation: np.ndarray  # float32[observation shape]
+    observation: Observation  # float32 or uint8[observation shape]
     choice: int
     termination: int = UNLABELED
 
@@ -44,14 +47,21 @@ class Dataset:
         """Return observations float32[B, observation shape] and labels int64[B, 2] (choice, termination) of rows."""
         observations = np.empty((len(rows), *self._shape), np.float32)
         for one, row in zip(observations, rows, strict=True):
-            one[...] = np.frombuffer(lz4.block.decompress(self._observations[row]), np.float32).reshape(self._shape)
+            seen = self._unpacked(row)
+            one[...] = seen if seen.dtype == np.float32 else seen / np.float32(255)
         labels = torch.tensor([self._labels[row] for row in rows], dtype=torch.int64).reshape(-1, 2)
         return torch.from_numpy(observations), labels
+
+    def _unpacked(self, row: int) -> Observation:
+        """Return an observation as it was appended: uint8 has one byte for each number, float32 has four."""
+        raw = lz4.block.decompress(self._observations[row])
+        dtype = np.uint8 if len(raw) == math.prod(self._shape) else np.float32
+        return np.frombuffer(raw, dtype).reshape(self._shape)
 
     def append(self, rows: Iterable[Row]) -> None:
         """Append rows."""
         for row in rows:
-            self._observations.append(lz4.block.compress(np.ascontiguousarray(row.observation, np.float32)))
+            self._observations.append(lz4.block.compress(np.ascontiguousarray(row.observation)))
             self._labels.append((row.choice, row.termination))
 
     def tensors(self) -> dict[str, torch.Tensor]:

@@ -6,6 +6,8 @@ differ in their last bits between devices.
 
 import torch
 
+from waypost.trajectory import Observation
+
 DEVICE = torch.device("cuda" if torch.cuda.is_available() else "cpu")
 
 
@@ -19,6 +21,12 @@ def has_bf16() -> bool:
 def mixed_precision(enabled: bool) -> torch.autocast:
     """Return a context in which networks compute in bf16, or a context without effect if not `enabled`."""
     return torch.autocast(DEVICE.type, torch.bfloat16, enabled=enabled)
+
+
+def as_input(observations: Observation) -> torch.Tensor:
+    """Return observations as networks see them, float32: uint8 is divided by 255."""
+    tensor = torch.from_numpy(observations)
+    return tensor.float() / 255 if tensor.dtype == torch.uint8 else tensor
 
 
 def to_device(batch: torch.Tensor) -> torch.Tensor:

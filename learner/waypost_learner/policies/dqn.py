@@ -4,11 +4,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import torch
-from numpy.typing import NDArray
 from torch import nn
 from torch.nn import functional
 
-from waypost_learner.policies.device import DEVICE, has_bf16, mixed_precision, to_device
+from waypost.trajectory import Observation
+from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision, to_device
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec, build_network
 from waypost_learner.policies.replay import Replay
 from waypost_learner.rollout.experience import PseudoReward
@@ -67,9 +67,9 @@ class QFunction:
         self._bf16 = spec.bf16 and has_bf16()
 
     @torch.inference_mode()
-    def __call__(self, observations: NDArray[np.float32]) -> Outputs:
-        """Return the Q-values of a batch float32[B, observation shape], as logits."""
-        values = self.network(torch.from_numpy(observations).to(DEVICE))
+    def __call__(self, observations: Observation) -> Outputs:
+        """Return the Q-values of a batch float32 or uint8[B, observation shape], as logits."""
+        values = self.network(as_input(observations).to(DEVICE))
         return Outputs(values.cpu().numpy(), np.zeros(len(values), np.float32))
 
     @property

@@ -7,15 +7,14 @@ view the subgoal termination classifier as an extra head of the subgoal policy n
 import math
 from dataclasses import dataclass
 
-import numpy as np
 import torch
-from numpy.typing import NDArray
 from torch import nn
 from torch.nn import functional
 from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 
+from waypost.trajectory import Observation
 from waypost_learner.policies.datasets import UNLABELED, Dataset
-from waypost_learner.policies.device import DEVICE, has_bf16, mixed_precision, to_device
+from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision, to_device
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec, build_network
 from waypost_learner.rollout.rollout import Outputs
 
@@ -89,9 +88,9 @@ class Policy:
         return self.network if self.average is None else self.average.module
 
     @torch.inference_mode()
-    def __call__(self, observations: NDArray[np.float32]) -> Outputs:
-        """Return the outputs for a batch float32[B, observation shape]."""
-        out = self.acting(torch.from_numpy(observations).to(DEVICE)).cpu()
+    def __call__(self, observations: Observation) -> Outputs:
+        """Return the outputs for a batch float32 or uint8[B, observation shape]."""
+        out = self.acting(as_input(observations).to(DEVICE)).cpu()
         termination = torch.sigmoid(out[:, -1]) if self.terminates else torch.zeros(len(out))
         return Outputs(out[:, : self.n_choices].numpy(), termination.numpy())
 

@@ -7,7 +7,7 @@ buffer entries by policy; `transformed_rows` and `transformed_transitions` apply
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from waypost.domains import Structured, Symmetry
+from waypost.domains import Relabeling, Retracing, Symmetry
 from waypost.trajectory import Action, Segment, Subgoal, Trajectory
 from waypost_learner.policies.datasets import UNLABELED, Row
 from waypost_learner.rollout.experience import Transition
@@ -59,7 +59,7 @@ class Labels:
         self.experience.append((key, tuple(transitions)))
 
 
-def rows_of(labels: Labels, relabeling: Structured | None = None) -> Rows:
+def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None) -> Rows:
     """Return the rows that labels add to each policy's buffer, in the order in which the labels were appended.
 
     Args:
@@ -75,9 +75,10 @@ def rows_of(labels: Labels, relabeling: Structured | None = None) -> Rows:
         _extend(rows, segment, lo)
     for tau, actions in labels.flat:
         rows.setdefault(FLAT, []).extend(_flat_rows(tau, actions))
-    if relabeling is not None:
+    if isinstance(relabeling, Relabeling):
         for sigma, good in labels.hi:
             rows[META] += [Row(observation, g) for observation, g in relabeling.relabeled(sigma, good)]
+    if isinstance(relabeling, Retracing):
         for demonstration in labels.demonstrations:
             for segment in relabeling.retraced(demonstration):
                 _extend(rows, segment, _demonstrated(segment))

@@ -5,6 +5,7 @@ from typing import Protocol
 
 import torch
 
+from waypost_learner.policies.device import as_input
 from waypost_learner.rollout.experience import Transition
 
 Tensors = dict[str, torch.Tensor]
@@ -58,8 +59,8 @@ class Replay:
         for transition in transitions:
             self._make_room()
             values = {
-                "before": torch.from_numpy(transition.observation),
-                "after": torch.from_numpy(transition.next_observation),
+                "before": as_input(transition.observation),
+                "after": as_input(transition.next_observation),
                 "choice": torch.tensor(transition.choice),
                 "reward": torch.tensor(transition.reward),
                 "discount": torch.tensor(self._spec.discount**transition.steps if transition.steps else 0.0),

@@ -1,22 +1,22 @@
 """Determines which part of an observation each policy sees, and which network computes its outputs.
 
-This depends on the preset (`DomainUse`) and on the domain's declarations (`waypost.domains.Structured`).
+This depends on the preset (`DomainUse`) and on the domain's declarations (`waypost.domains.Viewed`).
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from waypost.domains import Domain, Structured, Symmetry, View
+from waypost.domains import Domain, Symmetry, View, Viewed, symmetries_of
+from waypost.trajectory import Observation
 from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec
 from waypost_learner.rollout.policy_keys import PolicyKey, pi
 from waypost_learner.rollout.rollout import Outputs
 
-Evaluate = Callable[[NDArray[np.float32]], Outputs]
-"""Maps a batch float32[B, observation shape] to a policy's outputs."""
+Evaluate = Callable[[Observation], Outputs]
+"""Maps a batch float32 or uint8[B, observation shape] to a policy's outputs."""
 
 
 @dataclass(frozen=True)
@@ -30,11 +30,11 @@ class WrappedPolicy:
     """
 
     policy: Evaluate
-    observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]
+    observe: Callable[[Observation], Observation]
     choices: Sequence[int] | None
 
-    def __call__(self, observations: NDArray[np.float32]) -> Outputs:
-        """Return the outputs for a batch float32[B, observation shape]."""
+    def __call__(self, observations: Observation) -> Outputs:
+        """Return the outputs for a batch float32 or uint8[B, observation shape]."""
         out = self.policy(np.stack([self.observe(one) for one in observations]))
         return out if self.choices is None else Outputs(out.logits[:, self.choices], out.termination)
 
@@ -83,16 +83,16 @@ def policy_view(domain: Domain, use: DomainUse, network: NetworkSpec, key: Polic
 
 
 def _view(domain: Domain, use: DomainUse, key: PolicyKey) -> View:
-    if not use.views or not isinstance(domain, Structured):
+    if not use.views or not isinstance(domain, Viewed):
         return View(domain.observation_shape, _unchanged)
     return {"hi": domain.hi_view, "lo": domain.lo_view, "flat": domain.flat_view}[key.level]
 
 
-def _unchanged(observation: NDArray[np.float32]) -> NDArray[np.float32]:
+def _unchanged(observation: Observation) -> Observation:
     return observation
 
 
 def _tie(domain: Domain, subgoal: int) -> Symmetry | None:
     """Return the symmetry that maps a subgoal to the lowest possible number; None if that is its own number."""
-    first = min(domain.symmetries, key=lambda one: one.subgoals[subgoal], default=None)
+    first = min(symmetries_of(domain), key=lambda one: one.subgoals[subgoal], default=None)
     return first if first is not None and first.subgoals[subgoal] < subgoal else None

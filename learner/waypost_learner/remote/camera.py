@@ -1,7 +1,8 @@
 """Take pictures of the states in a query, for domains that draw their own states (`Pictured`).
 
-Pictures are taken when a query is asked, not during the rollout. The camera repeats the actions in its own environment;
-domains are deterministic, so it visits the same states. A frame is identified by the SHA-256 of its PNG.
+Pictures are taken when a query is asked, not during the rollout: the camera returns to the states in its own
+environment. If a domain cannot return to a state, its states already have pictures. A frame is identified by the
+SHA-256 of its PNG.
 """
 
 import hashlib
@@ -12,8 +13,8 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from waypost.domains import Domain, Pictured
-from waypost.trajectory import Action, Segment
+from waypost.domains import Domain, Pictured, Restorable, replay_of
+from waypost.trajectory import Action, Segment, State
 
 
 class Camera:
@@ -28,44 +29,65 @@ class Camera:
         self._domain, self._instance = domain, instance
         self._pictured = domain if isinstance(domain, Pictured) else None
         self._env = domain.make_env() if self._pictured else None
-        self._hashes: dict[tuple[Action, ...], str] = {}  # by the actions that lead to the state
+        self._replay = replay_of(domain)
+        self._hashes: dict[tuple[Action, ...] | int, str] = {}  # by the actions that lead to the state, or by its id
+        self._kept: list[State] = []  # the states whose ids are in use
         self._new: dict[str, bytes] = {}
 
     def frames(self, segments: Sequence[Segment]) -> list[list[str]]:
         """Return the hashes of the frames of each segment's states. The segments begin at the start of an episode."""
-        hashes = self.along([action for segment in segments for action in segment.actions])
+        actions = [action for segment in segments for action in segment.actions]
+        states = [state for segment in segments for state in segment.states[:-1]]
+        hashes = self.along(actions, [*states, segments[-1].states[-1]] if segments else [])
         ends, frames = 0, []
         for segment in segments:
             first, ends = ends, ends + len(segment.actions)
             frames.append(hashes[first : ends + 1])
         return frames
 
-    def along(self, actions: Sequence[Action]) -> list[str]:
-        """Return the hashes of the frames along actions from the start of the episode; [] if there are no pictures."""
+    def along(self, actions: Sequence[Action], states: Sequence[State]) -> list[str]:
+        """Return the hashes of the frames along a trajectory from the start of the episode; [] without pictures.
+
+        Args:
+            actions: the actions of the trajectory.
+            states: its states, one more than actions.
+        """
         if self._pictured is None:
             return []
-        prefixes = [tuple(actions[:n]) for n in range(len(actions) + 1)]
-        if any(prefix not in self._hashes for prefix in prefixes):
-            self._take(prefixes[-1])
-        return [self._hashes[prefix] for prefix in prefixes]
+        if self._replay == "actions":
+            keys: list[Any] = [tuple(actions[:n]) for n in range(len(actions) + 1)]
+        else:
+            keys = [id(state) for state in states]
+            self._kept += states
+        if any(key not in self._hashes for key in keys):
+            for key, pixels in zip(keys, self._pixels(actions, states), strict=True):
+                self._keep(key, pixels)
+        return [self._hashes[key] for key in keys]
 
     def developed(self) -> dict[str, bytes]:
         """Return the PNG files of all frames taken since the last call, by their hashes."""
         new, self._new = self._new, {}
         return new
 
-    def _take(self, actions: tuple[Action, ...]) -> None:
-        for n, pixels in enumerate(self._along(actions)):
-            if actions[:n] not in self._hashes:
-                png = encoded(pixels)
-                self._hashes[actions[:n]] = hashlib.sha256(png).hexdigest()
-                self._new[self._hashes[actions[:n]]] = png
+    def _keep(self, key: Any, pixels: Any) -> None:
+        if key not in self._hashes:
+            png = encoded(pixels)
+            self._hashes[key] = hashlib.sha256(png).hexdigest()
+            self._new[self._hashes[key]] = png
 
-    def _along(self, actions: Sequence[Action]) -> Iterator[Any]:
+    def _pixels(self, actions: Sequence[Action], states: Sequence[State]) -> Iterator[Any]:
         """Yield the picture of each state, uint8[rows, columns, 3]."""
         assert self._pictured is not None
         assert self._env is not None
+        if self._replay == "recorded":
+            yield from (state.picture for state in states)
+            return
         self._env.reset(options={"instance": self._instance})
+        if isinstance(self._domain, Restorable) and self._replay == "snapshots":
+            for state in states:
+                self._domain.restore(self._env, state.snapshot)
+                yield self._pictured.frame(self._env)
+            return
         yield self._pictured.frame(self._env)
         for action in actions:
             self._env.step(np.int64(action))

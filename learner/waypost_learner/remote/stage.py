@@ -15,6 +15,7 @@ from websockets.frames import CloseCode
 from websockets.sync.client import ClientConnection
 
 from waypost import wire
+from waypost.domains import replay_of
 from waypost_learner.remote.camera import Camera
 from waypost_learner.remote.translation import Translator
 from waypost_learner.rollout.simulator import Simulator
@@ -38,7 +39,8 @@ class Stage:
 
     def __init__(self, translator: Translator, upload: Upload) -> None:
         self._translator, self._upload = translator, upload
-        self._simulator = Simulator(translator.domain)
+        self._simulator = Simulator(translator.domain, pictures=True)
+        self._replay = replay_of(translator.domain)
         self._camera = Camera(translator.domain, translator.instance)  # not the translator's, which another thread uses
         self._begin()
 
@@ -46,31 +48,45 @@ class Stage:
         """Carry out the actions of a demonstration, and return the states that the web app does not have."""
         names = self._translator.domain.actions
         actions = [names.index(action) for segment in moves.segments for action in segment.actions]
-        if self._actions != actions[: len(self._actions)]:  # actions were taken back
-            self._begin()
+        again = self._actions != actions[: len(self._actions)]
+        if again:
+            self._take_back(actions)
         self._advance(actions[len(self._actions) :])
-        known = min(moves.known, len(self._views))
-        frames = self._camera.along(self._actions)[known:]
+        self._translator.played = (tuple(self._actions), tuple(self._states))
+        # An environment that cannot return to a state does not repeat the states that the web app has.
+        known = 0 if again and self._replay == "recorded" else min(moves.known, len(self._states))
+        frames = self._camera.along(self._actions, self._states)[known:]
         self._upload(self._camera.developed())
         return wire.PlayStates(
             type="states",
             number=moves.number,
             known=known,
-            states=self._views[known:],
+            states=[state.view for state in self._states[known:]],
             frames=frames,
             ended=self._simulator.ended,
             succeeded=self._simulator.succeeded,
         )
 
     def _begin(self) -> None:
-        self._views = [self._simulator.reset(self._translator.instance).view]
+        self._states = [self._simulator.reset(self._translator.instance)]
         self._actions: list[int] = []
+
+    def _take_back(self, actions: Sequence[int]) -> None:
+        """Return to the last state that the actions have in common with those carried out."""
+        if self._replay != "snapshots":
+            self._begin()
+            return
+        common = 0
+        while common < min(len(actions), len(self._actions)) and actions[common] == self._actions[common]:
+            common += 1
+        self._states, self._actions = self._states[: common + 1], self._actions[:common]
+        self._simulator.restore(self._states[-1])
 
     def _advance(self, actions: Sequence[int]) -> None:
         for action in actions:
             if self._simulator.ended:
                 break
-            self._views.append(self._simulator.step(action).view)
+            self._states.append(self._simulator.step(action))
             self._actions.append(action)
 
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from waypost import wire
-from waypost.domains import Domain
-from waypost.trajectory import Segment, Trajectory
+from waypost.domains import Domain, renderer_of, replay_of
+from waypost.trajectory import Segment, State, Trajectory
 from waypost_learner.algorithms.queries import (
     Answer,
     HierDemo,
@@ -27,7 +27,7 @@ from waypost_learner.rollout.simulator import Simulator
 def vocabulary(domain: Domain) -> wire.Vocabulary:
     """Return the names of a domain, as a run declares them to the server."""
     return wire.Vocabulary(
-        domain=domain.name, subgoals=list(domain.subgoals), actions=list(domain.actions), renderer=domain.renderer
+        domain=domain.name, subgoals=list(domain.subgoals), actions=list(domain.actions), renderer=renderer_of(domain)
     )
 
 
@@ -42,6 +42,8 @@ class Translator:
 
     def __init__(self, domain: Domain, instance: Any, camera: Camera | None = None) -> None:
         self.domain, self.instance, self.camera = domain, instance, camera
+        # The actions and states of a demonstration that was played here; another thread sets both at once.
+        self.played: tuple[tuple[int, ...], tuple[State, ...]] = ((), ())
 
     def ask(self, query: Query, episode: int, ordinal: int) -> wire.Ask:
         """Return a query in its wire form. `episode` and `ordinal` identify it in its run."""
@@ -124,25 +126,34 @@ class Translator:
                 return tuple(self.domain.actions.index(a) for a in answer.actions)
 
     def _replay(self, segments: Sequence[wire.DemoSegment]) -> Trajectory:
-        """Carry out a demonstration in the environment, to get the observations along it.
-
-        Actions after the end of the episode are ignored.
-        """
-        simulator = Simulator(self.domain)
-        state = simulator.reset(self.instance)
-        sigma = []
+        """Return a demonstration with the observations along it. Actions after the end of the episode are ignored."""
+        states = self._states([self.domain.actions.index(action) for one in segments for action in one.actions])
+        sigma, first = list[Segment](), 0
         for segment in segments:
-            states, actions = [state], list[int]()
-            for action in segment.actions:
-                if simulator.ended:
-                    break
-                actions.append(self.domain.actions.index(action))
-                states.append(simulator.step(actions[-1]))
+            actions = [self.domain.actions.index(action) for action in segment.actions][: len(states) - 1 - first]
             if actions:
                 subgoal = None if segment.subgoal is None else self.domain.subgoals.index(segment.subgoal)
-                sigma.append(Segment(subgoal, tuple(states), tuple(actions), terminated=subgoal is not None))
-            state = states[-1]
+                along = tuple(states[first : first + len(actions) + 1])
+                sigma.append(Segment(subgoal, along, tuple(actions), terminated=subgoal is not None))
+            first += len(actions)
         return tuple(sigma)
+
+    def _states(self, actions: Sequence[int]) -> Sequence[State]:
+        """Return the states along actions from the start of the episode, until it ends.
+
+        They are carried out here. If the environment may be random and somebody played these actions, the states are
+        those that were seen then.
+        """
+        played, seen = self.played
+        if seen and replay_of(self.domain) != "actions" and tuple(actions[: len(played)]) == played[: len(actions)]:
+            return seen[: len(actions) + 1]
+        simulator = Simulator(self.domain)
+        states = [simulator.reset(self.instance)]
+        for action in actions:
+            if simulator.ended:
+                break
+            states.append(simulator.step(action))
+        return states
 
     def _with_context(self, before: Trajectory, asked: Trajectory) -> dict[str, Any]:
         """Return the fields `segments` and `context` of a query: the segments that it asks about, and earlier ones."""

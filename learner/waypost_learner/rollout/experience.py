@@ -3,23 +3,20 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
-from waypost.trajectory import Segment, Trajectory
+from waypost.trajectory import Observation, Segment, Trajectory
 
 
 @dataclass(frozen=True)
 class Transition:
     """(s, choice, r, s~): the choice is an action, or a subgoal with all steps that carried it out."""
 
-    observation: NDArray[np.float32]
+    observation: Observation
     choice: int
     reward: float  # the sum over its steps, discounted to the first step
-    next_observation: NDArray[np.float32]
+    next_observation: Observation
     steps: int  # the number of steps of the choice; 0 if s~ is terminal
 
-    def observed(self, observe: Callable[[NDArray[np.float32]], NDArray[np.float32]]) -> "Transition":
+    def observed(self, observe: Callable[[Observation], Observation]) -> "Transition":
         """Return the same transition with both observations mapped by `observe`."""
         return replace(self, observation=observe(self.observation), next_observation=observe(self.next_observation))
 

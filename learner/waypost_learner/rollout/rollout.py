@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from waypost.trajectory import Segment, State, Subgoal, Trajectory
+from waypost.trajectory import Observation, Segment, State, Subgoal, Trajectory
 from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 from waypost_learner.rollout.simulator import Simulator
 
@@ -26,8 +26,8 @@ class Outputs:
     termination: NDArray[np.float32]  # [B], the probability of beta_g; 0 without a termination head
 
 
-Policies = Mapping[PolicyKey, Callable[[NDArray[np.float32]], Outputs]]
-"""Each policy as a function of a batch float32[B, observation shape], such as a `Policy` or a `QFunction`."""
+Policies = Mapping[PolicyKey, Callable[[Observation], Outputs]]
+"""Each policy as a function of a batch float32 or uint8[B, observation shape], such as a `Policy` or a `QFunction`."""
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,8 @@ from typing import Any
 import numpy as np
 
 from waypost import wire
+from waypost.client import Refused
+from waypost.domains import interval_of_tests, replay_of
 from waypost_learner.algorithms import Episode
 from waypost_learner.algorithms.queries import HierDemo, Query
 from waypost_learner.algorithms.uninspected import uninspected
@@ -144,7 +146,7 @@ class Driver:
         draw = self._instances.failing_draw(self._learner, self._draws) if redraw else self._draws
         self._draws = draw + 1
         instance = self._instances.train(draw)
-        s = self._learner.start(instance, draw)
+        s = self._learner.start(instance, draw, self._queue.pictures)
         generator = (warm_start or self._episode(number))(s, self._learner)
         camera = Camera(self._learner.domain, instance) if self._queue.pictures else None
         episode = OpenEpisode(number, Translator(self._learner.domain, instance, camera), generator)
@@ -163,14 +165,27 @@ class Driver:
     def _ask(self, episode: OpenEpisode, query: Query | None) -> None:
         """Ask an episode's query. While the answer is available immediately, ask the next query."""
         while query is not None:
-            translator = episode.translator
-            ask = translator.ask(query, episode.number, episode.ordinal)
-            episode.pending = self._queue.ask(ask, translator.camera.developed() if translator.camera else {})
-            episode.ordinal += 1
+            episode.pending = self._put(episode, query)
             self._hooks.let_answer()
             asked, query = query, self._advance(episode)
             if episode.pending is not None and isinstance(asked, HierDemo):
-                episode.withdraw = self._hooks.offer(episode.pending, translator)
+                episode.withdraw = self._hooks.offer(episode.pending, episode.translator)
+
+    def _put(self, episode: OpenEpisode, query: Query) -> int:
+        """Ask a query under the episode's next number, and return its id.
+
+        After a restart, an environment that may be random gives another episode, whose queries differ from those that
+        were asked before the restart. They are asked under new numbers.
+        """
+        translator, repeats = episode.translator, replay_of(self._learner.domain) == "actions"
+        while True:
+            ask = translator.ask(query, episode.number, episode.ordinal)
+            episode.ordinal += 1
+            try:
+                return self._queue.ask(ask, translator.camera.developed() if translator.camera else {})
+            except Refused as refusal:
+                if repeats or refusal.name != "different-content":
+                    raise
 
     def _advance(self, episode: OpenEpisode) -> Query | None:
         """Use the pending answer and return the next query; None if there is no answer yet or no further query."""
@@ -197,22 +212,27 @@ class Driver:
                     self._ask(episode, query)
 
     def _apply(self, episode: OpenEpisode) -> None:
-        """Learn from an episode, test on an unseen instance, and report both."""
+        """Learn from an episode, test on an unseen instance if a test is due, and report both."""
         assert episode.labels is not None
         self._learner.learn(episode.labels)
         if episode.passed is not None:
             self._passes = self._passes + 1 if episode.passed else 0
-        instance = self._instances.test(episode.number)
-        run(self._learner.rollout(self._test_simulator, instance, streams.TEST, episode.number), self._learner.policies)
-        result = self._result(episode)
+        tested = (episode.number + 1) % interval_of_tests(self._learner.domain) == 0
+        if tested:
+            self._test(episode.number)
+        result = self._result(episode, tested)
         self._queue.report(result)
         self._applied += 1
         if self._applied % self._checkpoint_every == 0:
             self._hooks.checkpoint(self.progress)
         self._hooks.on_episode(result, episode.units)
 
-    def _result(self, episode: OpenEpisode) -> wire.EpisodeResult:
-        """Return the result of an episode that was just tested."""
+    def _test(self, episode: int) -> None:
+        instance = self._instances.test(episode)
+        run(self._learner.rollout(self._test_simulator, instance, streams.TEST, episode), self._learner.policies)
+
+    def _result(self, episode: OpenEpisode, tested: bool) -> wire.EpisodeResult:
+        """Return the result of an episode, after its test if there was one."""
         now, before = time.monotonic(), self._clock
         self._clock = now
         sizes = dict.fromkeys(("hi", "lo", "flat"), 0)
@@ -222,9 +242,9 @@ class Driver:
             episode=episode.number,
             warm_start=episode.success is None,
             train_success=episode.success,
-            test_success=self._test_simulator.succeeded,
+            test_success=self._test_simulator.succeeded if tested else None,
             train_steps=episode.steps,
-            test_steps=self._test_simulator.steps,
+            test_steps=self._test_simulator.steps if tested else 0,
             hi_labels=sizes["hi"],
             lo_labels=sizes["lo"] + sizes["flat"],
             seconds=round(now - before, 4),

@@ -8,6 +8,7 @@ from waypost_learner.algorithms.learner import Learner
 from waypost_learner.experts.head_start import head_start
 from waypost_learner.presets import find_preset
 from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.missing_parts import missing_parts
 from waypost_learner.runs.useless_values import refuse_useless_values
 
 
@@ -19,6 +20,7 @@ class Setup:
     algorithm: Algorithm
     learner: Learner
     instances: InstanceSets
+    missing: dict[str, str]  # what is used instead of each part that the domain does not provide
 
 
 def set_up(config: TrainConfig, threads: int | None) -> Setup:
@@ -44,7 +46,8 @@ def set_up(config: TrainConfig, threads: int | None) -> Setup:
         monitored = ", ".join(name for name, one in ALGORITHMS.items() if one.monitored)
         raise ValueError(f"monitoring.share below 1 works only with {monitored}, and without --redraw")
     refuse_useless_values(config, algorithm, learner)
-    return Setup(config, algorithm, learner, learner.domain.instances(config.instances))
+    missing = missing_parts(learner)
+    return Setup(config, algorithm, learner, learner.domain.instances(config.instances), missing)
 
 
 def build_learner(config: TrainConfig, threads: int | None) -> Learner:

@@ -30,9 +30,11 @@ class Tracker:
 
     def episode(self, result: wire.EpisodeResult, units: float) -> None:
         """Write the events of one episode, whose answers cost `units`."""
-        self._tests = [*self._tests, bool(result.test_success)][-100:]
+        if result.test_success is not None:
+            self._tests = [*self._tests, result.test_success][-100:]
         values = {
-            "success/test": sum(self._tests) / len(self._tests),  # over the last 100 episodes, or fewer at the start
+            # over the last 100 tests, or fewer at the start
+            "success/test": sum(self._tests) / max(len(self._tests), 1),
             "expert/units": units,
             "labels/hi": result.hi_labels,
             "labels/lo": result.lo_labels,

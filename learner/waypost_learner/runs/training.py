@@ -9,6 +9,7 @@ from typing import Any
 
 from waypost import wire
 from waypost.client import Client
+from waypost.domains import Domain
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.experts.bot import Bot, BotSettings
 from waypost_learner.experts.oracle import OracleExpert
@@ -22,6 +23,9 @@ from waypost_learner.runs.run_queue import BudgetExhausted, RunQueue
 from waypost_learner.runs.setup import Setup, set_up
 from waypost_learner.runs.summary import finish
 from waypost_learner.runs.tracking import Tracker
+
+NOT_PROVIDED = "not_provided"
+"""The name in a run's configuration under which it keeps what was used instead of missing parts of the domain."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,7 @@ def train(
     learner = setup.learner
     if connection.annotator is not None:
         OracleExpert(learner.domain)  # refuses a domain without an oracle before a run is created
-    run = _find_or_create_run(config, learner, connection.learner, options)
+    run = _find_or_create_run(setup, connection.learner, options)
     path = options.checkpoints / f"{run.id}.safetensors"
     first = _load_checkpoint(path, learner) if options.resume else START
     on_start(run, first.episodes)
@@ -76,7 +80,7 @@ def train(
             on_episode(result, units)
 
         hooks = Hooks(
-            let_answer=_expert_here(connection, run.id),
+            let_answer=_expert_here(connection, run.id, learner.domain),
             on_episode=report,
             checkpoint=partial(save, weights_only=False),
             offer=_offer_to_people(connection),
@@ -101,20 +105,22 @@ def _queue(connection: Connection, run: str) -> RunQueue:
     return RunQueue(connection.learner, run, pictures=connection.annotator is None)
 
 
-def _find_or_create_run(config: TrainConfig, learner: Learner, client: Client, options: RunOptions) -> wire.Run:
+def _find_or_create_run(setup: Setup, client: Client, options: RunOptions) -> wire.Run:
     """Return the run to train: with `resume` the newest unfinished run of this configuration, else a new one."""
+    config = setup.config
     values = config_values(config)
     if options.resume:
         for run in client.runs():
-            if run.config == values and run.state != "finished" and options.name in (None, run.name):
+            same = {name: value for name, value in run.config.items() if name != NOT_PROVIDED} == values
+            if same and run.state != "finished" and options.name in (None, run.name):
                 return run
     return client.create_run(
         wire.RunCreate(
             name=options.name or f"{config.algorithm} {config.domain} {config.instances} seed {config.seed}",
             algorithm=config.algorithm,
             seed=config.seed,
-            vocabulary=vocabulary(learner.domain),
-            config=values,
+            vocabulary=vocabulary(setup.learner.domain),
+            config=values | ({NOT_PROVIDED: setup.missing} if setup.missing else {}),
             budget=options.budget,
             episodes=config.episodes,
         )
@@ -129,14 +135,14 @@ def _load_checkpoint(path: Path, learner: Learner) -> Progress:
     return checkpoints.read_header(path).progress
 
 
-def _expert_here(connection: Connection, run: str) -> Callable[[], None]:
+def _expert_here(connection: Connection, run: str, domain: Domain) -> Callable[[], None]:
     """Return a function that lets an expert in this process answer open queries. If others answer, it does nothing."""
     if connection.annotator is None:
         return lambda: None
     for assignment in connection.annotator.assignments():
         if assignment.run.id == run:  # held by an expert that was killed together with its learner
             connection.annotator.release(assignment)
-    bot = Bot(connection.annotator, BotSettings(run=run))
+    bot = Bot(connection.annotator, BotSettings(run=run), [domain])
     return lambda: bot.work(wait=0)
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from waypost.domains import Structured
+from waypost.domains import Placed, Relabeling, Retracing, Viewed, symmetries_of
 from waypost_learner.algorithms import Algorithm
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.policies.networks import PlanningSpec
@@ -33,14 +33,13 @@ def refuse_useless_values(config: TrainConfig, algorithm: Algorithm, learner: Le
 def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str]:
     """Return why values have no effect here, by the name of a value or of a group of values."""
     levels, domain, preset = algorithm.levels, learner.domain, learner.preset
-    structured = isinstance(domain, Structured)
     planned = {key for key in learner.learned if isinstance(learner.views[key].network, PlanningSpec)}
     hi = not (levels.flat or levels.q_hi)
     checks = {
         "warm_start": (algorithm.interactive, f"{name} has no warm start"),
         "h_hi": (not levels.flat, f"{name} has no subgoals"),
         "repeat_penalty": (
-            not levels.flat and structured,
+            not levels.flat and isinstance(domain, Placed),
             f"{name} has no subgoals, or the domain {domain.name!r} declares no places",
         ),
         "choosing": (levels.imitating, f"{name} chooses epsilon-greedily (dqn.epsilon)"),
@@ -53,17 +52,17 @@ def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str
         "dqn": (levels.reinforced, f"{name} has no Q-function"),
         "dqn.pseudo": (levels.q_lo and not levels.flat, f"{name} has no Q-function of a subgoal"),
         "symmetries": (
-            bool(domain.symmetries) and (levels.imitating or preset.use.tied),
+            bool(symmetries_of(domain)) and (levels.imitating or preset.use.tied),
             f"{name} has no policy that imitates, or the domain {domain.name!r} has no symmetries",
         ),
         "tied": (
             any(view.symmetry is not None for view in learner.views.values()),
             f"{name} has no subgoals, or none in the domain {domain.name!r} are equal up to a symmetry",
         ),
-        "views": (structured, f"the domain {domain.name!r} declares no views"),
+        "views": (isinstance(domain, Viewed), f"the domain {domain.name!r} declares no views"),
         "planning": (bool(planned), f"no policy of {name} has a view of the domain {domain.name!r} that shows places"),
         "relabeling": (
-            hi and structured,
+            hi and isinstance(domain, Relabeling | Retracing),
             f"{name} has no mu that imitates, or the domain {domain.name!r} declares no relabeling",
         ),
         "monitoring.rate": (preset.monitoring.share < 1, "monitoring.share is 1"),

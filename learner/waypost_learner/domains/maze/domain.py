@@ -26,7 +26,7 @@ from waypost_learner.domains.maze.views import FLAT_VIEW, HI_VIEW, LO_VIEW
 
 
 class MazeDomain:
-    """The maze as a `waypost.domains.Domain` that also describes its structure (`waypost.domains.Structured`).
+    """The maze as a `waypost.domains.Domain` with every optional part except pictures (`waypost.domains.parts`).
 
     A subgoal leads to the next room in a direction, or to the target.
     """
