@@ -39,17 +39,22 @@ class Session:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.port = free_port()  # the newest server's
         self.postgresql = DATABASE  # the database to use instead
         kept = {name: value for name, value in os.environ.items() if not name.startswith(("WAYPOST_", "PYTEST_"))}
         binaries = str(Path(sys.prefix) / "bin")
         self._environment = {**kept, "PATH": f"{binaries}:{kept['PATH']}", "NO_COLOR": "1", "PYTHONUNBUFFERED": "1"}
+        self._set_port(free_port())
         self._printed = folder.parent / "printed"  # what the shell blocks wrote to their standard output
         self._printed.touch()
         self._programs: list[subprocess.Popen[bytes]] = []
         self._endless: list[tuple[Block, subprocess.Popen[bytes]]] = []
         self._python: subprocess.Popen[str] | None = None
         (folder / ".venv").symlink_to(sys.prefix)  # as in a checkout
+
+    def _set_port(self, port: int) -> None:
+        """Set the port of the newest server; nothing may reach another server that listens on 8000."""
+        self.port = port
+        self._environment["WAYPOST_SERVER"] = DEFAULT_SERVER.replace("8000", str(port))
 
     def run(self, block: Block) -> None:
         """Run a block of shell commands or of Python; an `endless` one is started, and must then listen."""
@@ -68,8 +73,7 @@ class Session:
     def _filled_in(self, text: str) -> str:
         """Return the text with the session's port, and with what earlier blocks printed in place of RUN and wp_..."""
         if "waypost serve" in text:
-            self.port = free_port()
-            self._environment["WAYPOST_SERVER"] = DEFAULT_SERVER.replace("8000", str(self.port))
+            self._set_port(free_port())
             text = re.sub(r"\bwaypost serve\b", f"waypost serve --port {self.port}", text)
         text = re.sub(r"\bwaypost (oracle|gold)\b(?!.*--server)", rf"waypost \1 --server {DEFAULT_SERVER}", text)
         text = re.sub(r"(?<=:)8000\b", str(self.port), text).replace(DATABASE, self.postgresql)
