@@ -10,7 +10,7 @@ ARGS ?=
 PYTEST_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help demo serve web test test-web lint lint-python lint-web bench clean
+.PHONY: help demo serve web docs docs-serve test test-web lint lint-python lint-web bench clean
 .DELETE_ON_ERROR:
 
 help:
@@ -20,6 +20,7 @@ help:
 	@echo "make lint    run only the checks: style, types, import contracts"
 	@echo "make bench   measure, and print tables"
 	@echo "make web     build the web app"
+	@echo "make docs    build the documentation site into site/; make docs-serve shows it while you write"
 	@echo "make clean   remove everything that the other targets made, except stores and checkpoints"
 
 # --- targets for users
@@ -42,7 +43,13 @@ test: lint test-web $(VENV)/.dev web/dist/index.html
 test-web: web/node_modules/.stamp
 	@cd web && ../$(WITH_NODE) npm test --silent
 
-lint: lint-python lint-web
+docs: $(VENV)/.dev
+	$(PYTHON) -m mkdocs build --strict --quiet
+
+docs-serve: $(VENV)/.dev
+	@exec $(PYTHON) -m mkdocs serve $(ARGS)
+
+lint: lint-python lint-web docs
 
 lint-python: $(VENV)/.dev
 	$(PYTHON) -m ruff check
@@ -61,7 +68,7 @@ bench: $(VENV)/.dev $(PEERS)/.installed
 	@set -e; for file in bench/*.py; do echo "== $$file"; PYTHONPATH=. $(PYTHON) "$$file" $(ARGS); done
 
 clean:
-	rm -rf $(VENV) web/node_modules web/dist server/waypost_server/static .mypy_cache .ruff_cache .pytest_cache .import_linter_cache \
+	rm -rf $(VENV) web/node_modules web/dist server/waypost_server/static site .mypy_cache .ruff_cache .pytest_cache .import_linter_cache \
 	  .hypothesis build dist
 	find sdk server learner tests bench -name __pycache__ -type d -prune -exec rm -rf {} +
 

@@ -17,7 +17,7 @@ from waypost_server.errors import StorageFailed
 from waypost_server.gold import practice_routes as practice
 from waypost_server.gold import routes as gold
 from waypost_server.gold.practice import PracticeSet
-from waypost_server.http import description, problems, spa
+from waypost_server.http import description, page, problems, spa
 from waypost_server.http.context import VERSION, Context
 from waypost_server.http.guard import Guard
 from waypost_server.leases import routes as leases
@@ -63,8 +63,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(api)
     app.include_router(system.router)
     problems.install(app)
-    spa.install(app, chosen.page)
     description.install(app)
+    page.install(app)
+    spa.install(app, chosen.page)  # the last, because it handles every other path
     app.add_middleware(GZipMiddleware, minimum_size=GZIP_BYTES, compresslevel=5)
     app.add_middleware(
         Guard, hosts=chosen.hosts, max_body_bytes=chosen.max_body_bytes, body_seconds=chosen.body_seconds

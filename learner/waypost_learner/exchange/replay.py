@@ -16,7 +16,7 @@ from waypost.domains import Domain, find_domain
 from waypost.trajectory import Segment, Trajectory
 from waypost_learner.experts.head_start import head_start
 from waypost_learner.rollout.simulator import Simulator
-from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.config import config_of
 from waypost_learner.runs.instances import Instances
 
 MOST_DRAWS = 512  # searched for an episode's instance; a run with `redraw` draws several for one episode
@@ -63,7 +63,7 @@ class Replayer:
     def __init__(self, run: wire.Run) -> None:
         self.domain = _domain(run)
         try:
-            config = TrainConfig(**run.config)  # type: ignore[arg-type]  # checked by what it is used for
+            config = config_of(run.config)
         except TypeError as error:
             raise ValueError(
                 f"run {run.id} has no configuration of `waypost train`, so its instances cannot be drawn again"
@@ -161,7 +161,8 @@ class Replayer:
 
 
 def _domain(run: wire.Run) -> Domain:
-    domain, names = find_domain(run.vocabulary.domain), run.vocabulary
+    # A domain that is not installed is found where its run found it.
+    domain, names = find_domain(str(run.config.get("domain", run.vocabulary.domain))), run.vocabulary
     if (list(domain.subgoals), list(domain.actions)) != (names.subgoals, names.actions):
         raise ValueError(f"the domain {domain.name!r} has other subgoals or actions than run {run.id}")
     return domain

@@ -84,4 +84,8 @@ def _config(run: wire.Run, values: dict[str, Any]) -> TrainConfig:
     cloning = [known for known, one in ALGORITHMS.items() if not one.interactive and not one.levels.reinforced]
     if name not in cloning:
         raise ValueError(f"{name} does not learn from given labels alone; choose one of: {', '.join(cloning)}")
-    return TrainConfig(domain=run.vocabulary.domain, instances=str(run.config.get("instances", "random")), **values)
+    return TrainConfig(
+        domain=str(run.config.get("domain", run.vocabulary.domain)),
+        instances=str(run.config.get("instances", "random")),
+        **values,
+    )

@@ -3,6 +3,7 @@
 With the answers to its queries, a configuration determines every query and every weight of a run.
 """
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -27,6 +28,19 @@ class TrainConfig:
 def config_values(config: TrainConfig) -> dict[str, Any]:
     """Return a configuration as a run stores it: its fields by name, except fields that are None."""
     return {key: value for key, value in asdict(config).items() if value is not None}
+
+
+NOT_PROVIDED = "not_provided"
+"""The name in a run's configuration under which it keeps what was used instead of missing parts of the domain."""
+
+
+def config_of(values: Mapping[str, Any]) -> TrainConfig:
+    """Return the configuration that a run stores.
+
+    Raises:
+        TypeError: the values are no configuration of `waypost train`.
+    """
+    return TrainConfig(**{name: value for name, value in values.items() if name != NOT_PROVIDED})
 
 
 @dataclass(frozen=True)

@@ -17,16 +17,13 @@ from waypost_learner.remote import stage
 from waypost_learner.remote.connection import Connection
 from waypost_learner.remote.translation import vocabulary
 from waypost_learner.runs import checkpoints
-from waypost_learner.runs.config import START, Progress, TrainConfig, config_values
+from waypost_learner.runs.config import NOT_PROVIDED, START, Progress, TrainConfig, config_values
 from waypost_learner.runs.driver import Driver, Hooks, Offer
 from waypost_learner.runs.run_queue import RunQueue
 from waypost_learner.runs.setup import Setup, set_up
 from waypost_learner.runs.summary import finish
 from waypost_learner.runs.tracking.contract import Rows, TrackedRun, rows_after
 from waypost_learner.runs.tracking.tracker import Tracker, check
-
-NOT_PROVIDED = "not_provided"
-"""The name in a run's configuration under which it keeps what was used instead of missing parts of the domain."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from fastapi.responses import FileResponse, PlainTextResponse, Response
 
 MISSING = (
     "Waypost is running, but its web app is not built; `make web` builds it. The API is at /api/v1; "
-    "/api/v1/openapi.json describes it.\n"
+    "/api/docs describes it.\n"
 )
 
 
@@ -26,7 +26,7 @@ def install(app: FastAPI, folder: Path | None) -> None:
     @app.get("/{path:path}", include_in_schema=False)
     async def web_app(request: Request, path: str) -> Response:
         if path == "api" or path.startswith("api/"):
-            raise HTTPException(404, f"There is no {request.url.path}; /api/v1/openapi.json lists every path.")
+            raise HTTPException(404, f"There is no {request.url.path}; /api/docs lists every path.")
         root = folder or find()
         if root is None or not (root / "index.html").is_file():
             return PlainTextResponse(MISSING, 200 if path == "" else 404)

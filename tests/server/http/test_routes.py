@@ -119,6 +119,8 @@ def test_the_app_serves_nothing_that_is_not_described() -> None:
     described = {(method, path) for method, path, _ in operations()}
     assert all_routes(app.routes) - described == {
         ("GET", "/api/v1/openapi.json"),
+        ("GET", "/api/docs"),
+        ("GET", "/api/docs/style.css"),
         ("GET", "/{path:path}"),
         ("WS", "/api/v1/queries/{query}/play"),  # OpenAPI has no sockets; docs/rest-client.md describes it
     }
