@@ -84,8 +84,5 @@ def _config(run: wire.Run, values: dict[str, Any]) -> TrainConfig:
     cloning = [known for known, one in ALGORITHMS.items() if not one.interactive and not one.levels.reinforced]
     if name not in cloning:
         raise ValueError(f"{name} does not learn from given labels alone; choose one of: {', '.join(cloning)}")
-    return TrainConfig(
-        domain=str(run.config.get("domain", run.vocabulary.domain)),
-        instances=str(run.config.get("instances", "random")),
-        **values,
-    )
+    domain = str(run.config.get("domain", run.vocabulary.domain))
+    return TrainConfig(domain=domain, instances=str(run.config.get("instances", "random")), **values)
