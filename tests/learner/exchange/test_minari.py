@@ -111,6 +111,15 @@ def test_cost_and_time_add_up_to_the_ledger(exported: tuple[Path, str, list[Any]
     assert pseudonyms == {f"annotator-{run}-1".encode()}
 
 
+def test_the_cost_of_an_answer_is_at_the_last_state_that_it_is_about(exported: tuple[Path, str, list[Any]]) -> None:
+    for episode in exported[2]:
+        infos = episode.infos
+        ends = {*np.flatnonzero(np.diff(infos["segment"], prepend=0)), len(episode.actions)}
+        assert set(np.flatnonzero(infos["units"])) <= ends
+        assert infos["units"][-1] > 0
+        assert all((infos["units"] > 0) == (infos["annotator"] != b""))
+
+
 def test_a_policy_takes_a_training_step_on_the_episodes(exported: tuple[Path, str, list[Any]]) -> None:
     labeled = [(e.observations[e.infos["expert_action"] >= 0], e.infos["expert_action"]) for e in exported[2]]
     observations = torch.from_numpy(np.concatenate([seen for seen, _ in labeled]))

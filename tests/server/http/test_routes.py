@@ -64,6 +64,7 @@ MATRIX: dict[str, set[str]] = {
     "streamEvents": ANYONE,
     "listQueryRows": ANYONE,
     "listLedger": ANYONE,
+    "listRecords": ANYONE,
     "getHistory": ANYONE,
     "listAtWork": ANYONE,
     "exportRun": ANYONE,
