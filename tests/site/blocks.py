@@ -8,6 +8,8 @@ A block is run as it is written. A comment on the line before it can change this
     <!-- runs until it is stopped -->                      the rest of the page runs beside it
     <!-- saved as `FILE` -->                               the block is a file, which later blocks use
 
+docs/client.md is one program, which tests/repository/test_client_page.py runs beside a bot.
+
 A block with `waypost sweep` takes hours, so it is not run, either. Below the title of a page, the comment `<!-- tested
 beside a server with a query -->` starts a server first.
 """
@@ -20,7 +22,7 @@ from pathlib import Path
 from markdown_it import MarkdownIt
 from tests.repository.kit import DOCUMENTS, ROOT, name_of
 
-PAGES = (*DOCUMENTS, ROOT / "bench" / "RESULTS.md")
+PAGES = (*(page for page in DOCUMENTS if page != ROOT / "docs" / "client.md"), ROOT / "bench" / "RESULTS.md")
 LANGUAGES = {"sh", "python", "json", "toml", "yaml", "text"}  # text is what a program prints
 
 _COMMENT = re.compile(r"<!-- (.+?) -->", re.DOTALL)
