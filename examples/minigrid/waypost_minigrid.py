@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import gymnasium
-import minigrid  # noqa: F401  # registers its environments with Gymnasium
 import numpy as np
+from minigrid.core.grid import Grid
 
 import waypost
 
@@ -143,6 +143,15 @@ class Egocentric(gymnasium.ObservationWrapper[Any, Any, Any]):
         return seen, reward, terminated or lost, truncated, info
 
 
+def picture(env: gymnasium.Env[Any, Any]) -> Any:
+    """Return MiniGrid's picture, with the carried object in the top left corner."""
+    image, held = np.array(env.render()), getattr(env.unwrapped, "carrying", None)
+    if held is not None:
+        tile = Grid.render_tile(held)
+        image[: len(tile), : len(tile)] = tile
+    return image
+
+
 unlock_pickup = waypost.domain(
     lambda: Egocentric(gymnasium.make("MiniGrid-UnlockPickup-v0", render_mode="rgb_array", highlight=False)),
     tuple(SUBGOALS),
@@ -154,4 +163,5 @@ unlock_pickup = waypost.domain(
     reached=reached,
     good_subgoals=good_subgoals,
     good_actions=good_actions,
+    picture=picture,
 )

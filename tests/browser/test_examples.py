@@ -39,8 +39,8 @@ def client(served: Served) -> Iterator[Client]:
 
 def key_of(page: Page, name: str) -> str:
     """The key that the page prints on the button with this name."""
-    button = page.get_by_role("button", name=name.replace("_", " "))
-    printed = button.locator("kbd").first.inner_text()
+    button = page.get_by_title(name.replace("_", " "), exact=True)
+    printed = button.locator("kbd").inner_text()
     return PRESSED.get(printed, printed.lower())
 
 
