@@ -4,7 +4,7 @@
 
 It writes `curves.csv`, with one row per run and episode, and `curves.svg`. It prints a table of the final policies,
 whose checkpoints are beside each store: they are tested on the last 200 test instances. As a trivial baseline, it adds
-200 episodes of random actions.
+200 episodes of random actions. Of several runs with the same algorithm and seed in a store, the newest counts.
 """
 
 import argparse
@@ -18,6 +18,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
+from waypost import wire
 from waypost.domains import Domain, find_domain
 from waypost_learner.commands import checkpoint_folder
 from waypost_learner.experiments.figures import look
@@ -30,9 +31,10 @@ from waypost_learner.runs.config import TrainConfig
 from waypost_learner.runs.evaluation import evaluate
 from waypost_learner.runs.setup import build_learner
 
-TRAILING = 20  # tests in a success rate
+WINDOW = 20  # tests in a success rate
 UNSEEN = 200  # test instances for the table
 RANDOM = "random actions"
+EXPLANATION = "Lines: medians over the seeds. Bands: ranges. Each rate is over the tests just before and after."
 LABELS = {"hg-dagger": "hg-DAgger", "h-bc": "h-BC", "flat-dagger": "flat DAgger", "flat-bc": "flat BC"}
 
 
@@ -72,7 +74,7 @@ def main() -> None:
 def rows_of(store: Path) -> Iterator[Row]:
     """Yield the rows of every run in a store. Episodes without a test are left out."""
     with stored_runs(store) as runs:
-        for run in runs.runs():
+        for run in newest(runs.runs()):
             columns = runs.curves(run.id)
             for episode, units, success in zip(columns.episode, columns.cost, columns.test_success, strict=True):
                 if success is not None:
@@ -82,12 +84,20 @@ def rows_of(store: Path) -> Iterator[Row]:
 def final_policies(store: Path) -> Iterator[tuple[str, float, float]]:
     """Yield the algorithm, the cost in units, and the success on unseen instances of each run's final policies."""
     with stored_runs(store) as runs:
-        for run in runs.runs():
+        for run in newest(runs.runs()):
             path = checkpoint_folder(None, store, None) / f"{run.id}.safetensors"
             learner = build_learner(checkpoints.read_header(path).config, threads=1)
             checkpoints.load(path, learner)
             unseen = learner.domain.instances("random").test[-UNSEEN:]
             yield run.algorithm, runs.curves(run.id).cost[-1], evaluate(learner, unseen, len(unseen)).success_rate
+
+
+def newest(runs: Sequence[wire.Run]) -> Sequence[wire.Run]:
+    """Return the first run of each algorithm and seed; a store lists its newest run first."""
+    found: dict[tuple[str, int], wire.Run] = {}
+    for run in runs:
+        found.setdefault((run.algorithm, run.seed), run)
+    return list(found.values())
 
 
 def domain_of(store: Path) -> Domain:
@@ -130,16 +140,24 @@ def curves(rows: Iterable[Row]) -> Figure:
             style = look.style_of(Series(TrainConfig(algorithm), algorithm))
             look.curve(axes, [track(run) for run in seeds], style)
         legend.append((LABELS.get(algorithm, algorithm), style))
-    look.percent_axis(axes, f"Success on unseen instances (trailing {TRAILING})")
+    look.percent_axis(axes, f"Success on unseen instances ({WINDOW} tests)")
     look.count_axis(axes.xaxis, "Expert cost, units")
-    look.legend(figure, legend, "Lines: medians over the seeds. Bands: ranges.", markers=False)
+    look.legend(
+        figure,
+        legend,
+        EXPLANATION,
+        markers=False,
+    )
     return figure
 
 
 def track(run: Sequence[Row]) -> Track:
-    """Return a run's success rate over the trailing tests, as a function of its cost."""
-    success = [row.test_success for row in run]
-    rate = [100 * float(np.mean(success[max(0, n - TRAILING) : n])) for n in range(1, len(run) + 1)]
+    """Return a run's success rate over the tests before and after each episode, as a function of its cost.
+
+    A rate over past tests alone would lag behind, and most for algorithms whose episodes cost most.
+    """
+    success, half = [row.test_success for row in run], WINDOW // 2
+    rate = [100 * float(np.mean(success[max(0, n - half) : n + half])) for n in range(len(run))]
     return Track(np.array([row.units for row in run]), np.array(rate), over=False)
 
 
