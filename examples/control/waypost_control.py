@@ -26,19 +26,21 @@ class Holding(gymnasium.Wrapper[Any, Any, Any, Any]):
     """Repeats each action, counts how long the pendulum is held upright, and ends the episode after a second of it."""
 
     held = 0  # actions
+    turned = False  # whether the pendulum turned back during the last action
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Start at a random angle and speed."""
-        self.held = 0
+        self.held, self.turned = 0, False
         return self.env.reset(seed=seed, options=options)
 
     def step(self, action: Any) -> tuple[Any, SupportsFloat, bool, bool, dict[str, Any]]:
         """Apply a torque for a tenth of a second. The reward is the environment's own, of the last time step."""
-        truncated = False
+        truncated, (_, before) = False, angle_and_speed(self)
         for _ in range(REPEAT):
             if not truncated:
                 observation, reward, _, truncated, info = self.env.step(np.array(action, np.float32))
         angle, speed = angle_and_speed(self)
+        self.turned = before * speed < 0
         self.held = self.held + 1 if abs(angle) < 0.2 and abs(speed) < 1 else 0
         return observation, reward, self.held == HOLD, truncated, info
 
@@ -52,7 +54,7 @@ def angle_and_speed(env: Any) -> tuple[float, float]:
 def view(env: Any) -> State:
     """Return what experts see of the environment's state."""
     angle, speed = angle_and_speed(env)
-    return {"angle": round(angle, 4), "speed": round(speed, 4), "held": env.held}
+    return {"angle": round(angle, 4), "speed": round(speed, 4), "turned": env.turned, "held": env.held}
 
 
 def observe(observation: Any) -> NDArray[np.float32]:
@@ -80,7 +82,9 @@ def good_subgoals(state: State) -> list[str]:
 def reached(origin: State, state: State, subgoal: str) -> bool:
     """A swing ends where the pendulum turns back or can be caught; holding ends after a second."""
     del origin
-    return succeeded(state) if subgoal == "hold" else catchable(state) or SIGNS[subgoal] * state["speed"] < 0
+    if subgoal == "hold":
+        return succeeded(state)
+    return catchable(state) or bool(state["turned"] and SIGNS[subgoal] * state["speed"] < 0)
 
 
 def good_actions(origin: State, state: State, subgoal: str) -> list[str]:

@@ -56,7 +56,7 @@ class FlightDialogue(gymnasium.Env[NDArray[np.float32], np.int64]):
         self._picky, self._fickle, self._disappointed = self._chance(0.3), self._chance(0.3), False
         self._asked: set[str] = set()
         self.state: State = {"turns": [], "known": {}, "unsure": {}, "flights": None, "accepted": False}
-        self.state |= {"agreed": False, "useless": 0, "end": None}
+        self.state |= {"agreed": False, "useful": True, "useless": 0, "end": None}
         told = [self._tell(slot) for slot in SLOTS if self._chance(0.25)]
         self._say("user", f"Hello, I need a flight. {' '.join(told)}".strip())
         return self._observe(), {}
@@ -65,6 +65,7 @@ class FlightDialogue(gymnasium.Env[NDArray[np.float32], np.int64]):
         """Let the system speak and the user reply."""
         act, *slot = ACTIONS[int(action)].split("_")
         utterance, reply = getattr(self, f"_{act}")(*slot)
+        self.state["useful"] = reply is not None
         if reply is None:
             self.state["useless"] += 1
             reply = "That makes no sense to me."
@@ -186,24 +187,27 @@ def good_subgoals(state: State) -> list[str]:
 
 
 def reached(origin: State, state: State, subgoal: str) -> bool:
-    """Asking ends when the wish is known; offering and confirming also end when the user opens a wish again."""
+    """Asking ends when the wish is known; offering and confirming also end when the user opens a wish again.
+
+    After a useless act nothing counts as accomplished: the segment should have ended before.
+    """
     del origin
     act, _, slot = subgoal.partition("_")
-    if act == "ask":
-        return slot in state["known"]
-    return bool(_open(state)) or (state["accepted"] if subgoal == "offer" else succeeded(state))
+    done = slot in state["known"] if act == "ask" else state["accepted"] if act == "offer" else succeeded(state)
+    return state["useful"] and bool(done or (act != "ask" and _open(state)))
 
 
 def good_actions(origin: State, state: State, subgoal: str) -> list[str]:
-    """Return the dialogue act that brings the subgoal forward."""
-    if state["end"] or reached(origin, state, subgoal):
-        return []
+    """Return the dialogue act that brings the subgoal forward; none if the segment should have ended."""
+    del origin
     act, _, slot = subgoal.partition("_")
+    if state["end"] or slot in state["known"] or (act != "ask" and _open(state)):
+        return []
     if act == "ask":
         return [f"verify_{slot}" if slot in state["unsure"] else f"request_{slot}"]
     if not state["accepted"]:  # also toward `confirm`, which needs an accepted flight
         return ["propose" if state["flights"] else "regret"]
-    return ["book" if state["agreed"] else "summarize"]
+    return [] if act == "offer" else ["book" if state["agreed"] else "summarize"]
 
 
 def succeeded(state: State) -> bool:

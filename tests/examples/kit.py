@@ -51,9 +51,9 @@ def check_answers_of_every_kind(domain: Domain, instance: Any) -> None:
     assert len(flat.actions) == sum(len(segment.actions) for segment in asks[-1].segments)
 
 
-def success_after(episodes: int, domain: str, folder: Path) -> float:
-    """The success on 50 unseen instances after a run of hg-DAgger, three of whose episodes are demonstrations."""
-    config = TrainConfig("hg-dagger", domain=domain, episodes=max(episodes, 1), values=QUICK)
+def success_after(episodes: int, domain: str, folder: Path, warm_start: int = 3) -> float:
+    """The success on 50 unseen instances after a run of hg-DAgger, which begins with some demonstrations."""
+    config = TrainConfig("hg-dagger", domain=domain, episodes=max(episodes, 1), warm_start=warm_start, values=QUICK)
     learner = build_learner(config, threads=1)
     if episodes > 0:
         with store(folder / "runs") as (connection, options):

@@ -90,7 +90,7 @@ def test_a_good_subgoal_is_not_reached_where_it_is_chosen(seed: int, said: list[
 @examples
 @given(st.floats(-0.6, 0.6), st.floats(-3, 3))
 def test_what_is_catchable_is_held_for_a_second(angle: float, speed: float) -> None:
-    start = {"angle": angle, "speed": speed, "held": 0}
+    start = {"angle": angle, "speed": speed, "turned": False, "held": 0}
     if not catchable(start):
         return
     env = upright_pendulum.make_env()
@@ -121,4 +121,4 @@ def test_every_kind_of_query_is_answered() -> None:
 
 def test_a_short_run_learns_to_swing_up(tmp_path: Path) -> None:
     assert success_after(0, DOMAIN, tmp_path) < 0.1
-    assert success_after(20, DOMAIN, tmp_path) > 0.1
+    assert success_after(20, DOMAIN, tmp_path, warm_start=16) > 0.2
