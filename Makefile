@@ -44,10 +44,10 @@ test-web: web/node_modules/.stamp
 	@cd web && ../$(WITH_NODE) npm test --silent
 
 docs: $(VENV)/.dev
-	$(PYTHON) -m mkdocs build --strict --quiet
+	NO_MKDOCS_2_WARNING=1 $(PYTHON) -m mkdocs build --strict
 
 docs-serve: $(VENV)/.dev
-	@exec $(PYTHON) -m mkdocs serve $(ARGS)
+	@NO_MKDOCS_2_WARNING=1 exec $(PYTHON) -m mkdocs serve $(ARGS)
 
 lint: lint-python lint-web docs
 

@@ -26,6 +26,12 @@ OUTSIDE = {
     "bench/RESULTS.md": "benchmarks.md",
     "web/public/favicon.svg": "images/favicon.svg",
 }
+# The texts of the examples, and the files that these texts link to, keep their addresses.
+OUTSIDE |= {
+    name: name
+    for pattern in ("*.md", "*.sh", "*/*.md", "*/*.py", "*/ask.ts", "*/results/*.[ps][nv]g")
+    for name in sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "examples").glob(pattern))
+}
 LINK = re.compile(r"(\]\()([^)\s#:]+)((?:#[^)\s]*)?\))")
 
 

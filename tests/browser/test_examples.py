@@ -1,118 +1,82 @@
-"""The domains in `examples`: one query of each kind is answered in the page with the keyboard alone."""
+"""The domains in `examples` in the page: one query of each kind about each is answered with the keyboard alone."""
 
-from collections.abc import Iterator, Sequence
-from contextlib import closing
+import re
+from typing import Any
 
 import pytest
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import WIDE, Open
-from tests.browser.kit import Learner, wait_for_heading
+from tests.browser.kit import Learner
 from tests.browser.test_access import violations
+from tests.examples.kit import DOMAINS
+from tests.examples.page import Asked, asked, give, wait_for
+from waypost_dialogue import flight_dialogue
 
-from waypost import wire
-from waypost.client import Client
 from waypost.domains import find_domain
-from waypost_learner.algorithms.learner import Learner as Policies
-from waypost_learner.algorithms.queries import HierDemo, InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, Query
-from waypost_learner.experts.oracle import OracleExpert
-from waypost_learner.presets import find_preset
-from waypost_learner.remote.camera import Camera
-from waypost_learner.remote.stage import offer
-from waypost_learner.remote.translation import Translator, vocabulary
-from waypost_server.auth import tokens
 from waypost_server.serving import Served
-from waypost_server.users import service as users
 
-DOMAINS = ["waypost_minigrid:unlock_pickup"]
 SIZES = {"desktop": WIDE, "tablet": {"width": 768, "height": 1024}}
-PRESSED = {"←": "ArrowLeft", "→": "ArrowRight", "↑": "ArrowUp", "↓": "ArrowDown"}
+SEED = 4
 
 
-@pytest.fixture
-def client(served: Served) -> Iterator[Client]:
-    """A learner's client."""
-    user = served.db.write_now(lambda tx: users.ensure_user(tx, "example-learner", "learner"))
-    token = served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "test")).token
-    with closing(Client(served.url, token)) as client:
-        yield client
+def expect_picture(page: Page, one: Asked) -> None:
+    """The page shows a picture of the state."""
+    picture = page.locator("img.shown")
+    expect(picture).to_be_visible()
+    assert picture.evaluate("image => image.naturalWidth") >= 160, one.ask.kind
 
 
-def key_of(page: Page, name: str) -> str:
-    """The key that the page prints on the button with this name."""
-    button = page.get_by_title(name.replace("_", " "), exact=True)
-    printed = button.locator("kbd").inner_text()
-    return PRESSED.get(printed, printed.lower())
+def expect_conversation(page: Page, one: Asked) -> None:
+    """The page shows the turns of the last state, each with its speaker, and the last one is in view."""
+    if one.ask.kind == "hier_demo":
+        expect_turns(page, one.ask.state)
+    else:
+        page.keyboard.press("End")
+        expect_turns(page, one.ask.segments[-1].states[-1])
+        page.keyboard.press("Home")
 
 
-def press(page: Page, keys: Sequence[str]) -> None:
-    for key in keys:
-        page.keyboard.press(key)
-
-
-def play(page: Page, answer: wire.HierDemoAnswer) -> None:
-    """Play a demonstration as the oracle would."""
-    page.locator("[data-stage=here]").wait_for()
-    for segment in answer.segments:
-        if segment is not answer.segments[0]:
-            page.keyboard.press("Enter")
-        page.keyboard.press(key_of(page, str(segment.subgoal)))
-        press(page, [key_of(page, action) for action in segment.actions])
-    page.get_by_text("The task is accomplished. Send the demonstration.").wait_for()
-    page.keyboard.press("Enter")
-
-
-def keys_of(page: Page, answer: wire.Answer) -> list[str]:
-    """The keys that give an answer."""
-    match answer:
-        case wire.InspectAnswer():
-            return ["p" if answer.verdict == "pass" else "f"]
-        case wire.LabelHiAnswer():
-            return [*(key_of(page, name) for name in answer.subgoals), "Enter"]
-        case wire.LabelLoAnswer():
-            ended = answer.terminations.index(True) if True in answer.terminations else None
-            labels = [key_of(page, name) for name in answer.actions[:ended] if name is not None]
-            return [*labels, "n" if ended is None else "d", "Enter"]
-        case wire.LabelFullAnswer():
-            return [*(key_of(page, name) for name in answer.actions), "Enter"]
-        case wire.HierDemoAnswer():
-            raise AssertionError("a demonstration is played")
+def expect_turns(page: Page, state: Any) -> None:
+    turns = page.get_by_role("list", name="Conversation").get_by_role("listitem")
+    expect(turns).to_have_count(len(state["turns"]))
+    for n, turn in enumerate(state["turns"]):
+        expect(turns.nth(n)).to_contain_text(turn["speaker"])
+        expect(turns.nth(n)).to_contain_text(turn["text"])
+    expect(turns.last).to_be_in_viewport()
+    rest = page.get_by_label("The rest of the state")
+    expect(rest).to_have_text(re.compile(rf"useless\s*{state['useless']}"))
+    expect(rest).to_be_in_viewport()
 
 
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("place", DOMAINS)
 def test_one_query_of_each_kind_is_answered_with_the_keyboard_alone(
-    open_page: Open, learner: Learner, client: Client, place: str, size: str
+    open_page: Open, learner: Learner, served: Served, place: str, size: str
 ) -> None:
     domain = find_domain(place)
-    instance = domain.instances("random").train[0]
-    policies = Policies(domain, find_preset("lean"), seed=0, threads=1)
-    s = policies.start(instance, 0)
-    sigma = policies.roll_out(s)
-    queries: list[Query] = [
-        InspectFull(sigma),
-        LabelHi(sigma),
-        InspectLo(sigma[0]),
-        LabelLo(sigma[0]),
-        LabelFull(sigma[:2]),
-        HierDemo(s.state),
-    ]
-    camera = Camera(domain, instance)
-    translator, expert = Translator(domain, instance, camera), OracleExpert(domain)
-    run = client.create_run(wire.RunCreate(name=place, algorithm="hg-dagger", seed=0, vocabulary=vocabulary(domain))).id
-    page = open_page(f"/work?run={run}", size=SIZES[size])
-    for ordinal, query in enumerate(queries):
-        ask = translator.ask(query, 0, ordinal)
-        client.upload(camera.developed())
-        [asked] = client.ask(run, [ask])
-        answer = expert(ask)
-        wait_for_heading(page, ask.question)
-        if isinstance(answer, wire.HierDemoAnswer):
-            withdraw = offer(lambda number=asked.id: client.play(number), translator, client.upload)
-            play(page, answer)
-            withdraw()
-        else:
-            if isinstance(query, LabelHi):
-                expect(page.locator("img.shown")).to_be_visible()
-                assert violations(page) == []
-            press(page, keys_of(page, answer))
-        assert learner.answer_of(asked.id) == answer.model_dump(mode="json")
+    expect_state = expect_conversation if domain is flight_dialogue else expect_picture
+    with asked(served, domain, SEED) as queries:
+        page = open_page(f"/work?run={queries[0].run}", size=SIZES[size])
+        for one in queries:
+            wait_for(page, one)
+            if one.ask.kind == "hier_demo":
+                page.locator("[data-stage=here]").wait_for()
+            expect_state(page, one)
+            assert violations(page) == [], one.ask.kind
+            give(page, one)
+            assert learner.answer_of(one.query) == one.stored
+
+
+def test_new_turns_of_a_conversation_are_marked(open_page: Open, served: Served) -> None:
+    with asked(served, flight_dialogue, SEED) as queries:
+        page = open_page(f"/work?run={queries[0].run}")
+        wait_for(page, queries[0])
+        expect(page.get_by_text("· new")).to_have_count(0)
+        give(page, queries[0])
+        wait_for(page, queries[1])
+        page.keyboard.press("End")
+        expect(page.get_by_text("system · new")).to_have_count(1)
+        expect(page.get_by_text("user · new")).to_have_count(1)
+        for one in queries[1:]:
+            wait_for(page, one)
+            give(page, one)

@@ -17,7 +17,7 @@ from waypost import wire
 
 BLOCKS = [block for page in PAGES for block in blocks(page)]
 PARSERS = {"json": json.loads, "toml": tomllib.loads, "yaml": yaml.safe_load}
-MOST_NOT_RUN = 16
+MOST_NOT_RUN = 20
 
 
 def runs(block: Block) -> bool:
@@ -46,8 +46,9 @@ def test_data_can_be_parsed(block):
 def test_the_blocks_of_a_page_run_one_after_the_other(page, tmp_path, request):
     with ExitStack() as stack:
         opened = stack.enter_context(session(tmp_path))
-        if any("docs/" in block.tested for block in blocks(page)):
-            shutil.copytree(ROOT / "docs", opened.folder / "docs", ignore=shutil.ignore_patterns("images"))
+        for name in ("docs", "examples"):
+            if any(f"{name}/" in block.tested for block in blocks(page) if runs(block)):
+                shutil.copytree(ROOT / name, opened.folder / name, ignore=shutil.ignore_patterns("images"))
         if DATABASE in page.read_text():
             opened.postgresql = request.getfixturevalue("cluster").create()
         if beside_server(page):

@@ -105,11 +105,11 @@ def test_every_document_but_the_readme_is_a_page(pages: dict[Path, Read], site: 
     }
     for document in PAGES:
         if document != ROOT / "README.md":
-            inside = (
-                document.relative_to(ROOT / "docs").with_suffix("")
-                if "docs" in document.parts
-                else Path(other[document.stem])
-            )
+            inside = document.relative_to(ROOT).with_suffix("")
+            if "docs" in inside.parts:
+                inside = inside.relative_to("docs")
+            elif "examples" not in inside.parts:
+                inside = Path(other[inside.name])
             address = inside.with_name("index") if inside.name == "README" else inside
             assert (site / address).with_suffix(".html") in pages, document
 
@@ -134,7 +134,7 @@ def checkout(tmp_path: Path) -> Path:
     """A copy of what the site is built from."""
     for path in tracked():
         name = path.relative_to(ROOT)
-        if name.parts[0] in {"docs", "bench", "sdk", "web"} or len(name.parts) == 1:
+        if name.parts[0] in {"docs", "bench", "examples", "sdk", "web"} or len(name.parts) == 1:
             (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
             if path.suffix not in {".png", ".svg", ".gz"} or "favicon" in name.name:
                 shutil.copyfile(path, tmp_path / name)
