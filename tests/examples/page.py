@@ -20,6 +20,8 @@ from waypost_server.auth import tokens
 from waypost_server.serving import Served
 from waypost_server.users import service as users
 
+ARROWS = {"←": "ArrowLeft", "→": "ArrowRight", "↑": "ArrowUp", "↓": "ArrowDown"}
+
 
 @dataclass(frozen=True)
 class Asked:
@@ -93,7 +95,8 @@ def give(page: Page, one: Asked) -> None:
 def press(page: Page, group: str, name: str) -> None:
     """Press the key that the page shows for a subgoal or an action."""
     button = page.locator(f"[role=group][aria-label^={group}] button[title='{name.replace('_', ' ')}']")
-    page.keyboard.press(button.locator("kbd").inner_text().lower())
+    printed = button.locator("kbd").inner_text()
+    page.keyboard.press(ARROWS.get(printed, printed.lower()))
 
 
 def wait_for(page: Page, one: Asked) -> None:
