@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 from playwright.sync_api import expect
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, ask, wait_for_heading
+from tests.browser.test_access import violations
 
 
 def test_a_run_is_followed_live(open_page: Open, learner: Learner) -> None:
@@ -238,3 +239,19 @@ def test_what_is_not_there(open_page: Open, complaints: Complaints) -> None:
     expect(page.get_by_role("heading", name="There is no such run")).to_be_visible()
     page.goto("/what/is/this")
     expect(page.get_by_role("heading", name="There is nothing at this address")).to_be_visible()
+
+
+def test_the_configuration_and_what_the_domain_lacks_are_shown(open_page: Open, learner: Learner) -> None:
+    instead = {"views": "Policies see whole observations.", "places": "There is no repeat penalty."}
+    config = {"preset": "lean", "values": "relabeling=false " * 12, "not_provided": instead}
+    run = learner.create_run("lacking", config=config)
+    page = open_page(f"/runs/{run}")
+    shown = page.get_by_role("region", name="Configuration")
+    expect(shown).to_contain_text("preset lean")
+    expect(shown.get_by_role("heading", name="does not provide")).to_be_visible()
+    for part, words in instead.items():
+        expect(shown).to_contain_text(f"{part} {words}")
+    assert violations(page) == []
+    plain = open_page(f"/runs/{learner.create_run('complete', config={'preset': 'lean'})}")
+    expect(plain.get_by_role("region", name="Configuration")).to_contain_text("preset lean")
+    expect(plain.get_by_role("heading", name="does not provide")).to_have_count(0)

@@ -43,7 +43,7 @@ export function grouped(runs: readonly Run[], apart: boolean): Group[] {
 
 function factsOf(run: Run | undefined): Map<string, string> {
   if (run === undefined) return new Map();
-  const { seed: _, ...config } = run.config;
+  const { seed: _, not_provided: __, ...config } = run.config;
   const facts = { ...config, algorithm: run.algorithm, domain: run.vocabulary.domain };
   return new Map(
     Object.entries(facts).map(([name, value]) => [
