@@ -7,6 +7,7 @@ from tests.acceptance.person import Person
 from tests.acceptance.processes import VALUES, ServerProcess, answers, finished, start_learner
 
 from waypost import wire
+from waypost.domains import find_domain
 
 EPISODES, DEMONSTRATIONS = 8, 2
 SEED = ("--seed", "1")  # of few runs so short that ask every kind of query
@@ -33,7 +34,7 @@ def test_a_person_does_a_run_with_the_keyboard_alone_and_pays_what_the_paper_say
 ) -> None:
     page.goto(server.login_link("person"))
     page.wait_for_url("**/work")
-    person = Person(page, server.client("learner", "learner"))
+    person = Person(page, server.client("learner", "learner"), find_domain("maze"))
     learner = start_learner(server, (*VALUES, *SEED, *LENGTH))
     person.work_until(lambda: learner.poll() is not None)
     summary = finished(learner)

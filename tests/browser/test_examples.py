@@ -6,10 +6,11 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import WIDE, Open
+from tests.browser.keyboard import give
 from tests.browser.kit import Learner
 from tests.browser.test_access import violations
 from tests.examples.kit import DOMAINS
-from tests.examples.page import Asked, asked, give, wait_for
+from tests.examples.page import Asked, asked, wait_for
 from waypost_dialogue import flight_dialogue
 
 from waypost.domains import find_domain
@@ -63,7 +64,7 @@ def test_one_query_of_each_kind_is_answered_with_the_keyboard_alone(
                 page.locator("[data-stage=here]").wait_for()
             expect_state(page, one)
             assert violations(page) == [], one.ask.kind
-            give(page, one)
+            give(page, one.right)
             assert learner.answer_of(one.query) == one.stored
 
 
@@ -72,11 +73,11 @@ def test_new_turns_of_a_conversation_are_marked(open_page: Open, served: Served)
         page = open_page(f"/work?run={queries[0].run}")
         wait_for(page, queries[0])
         expect(page.get_by_text("· new")).to_have_count(0)
-        give(page, queries[0])
+        give(page, queries[0].right)
         wait_for(page, queries[1])
         page.keyboard.press("End")
         expect(page.get_by_text("system · new")).to_have_count(1)
         expect(page.get_by_text("user · new")).to_have_count(1)
         for one in queries[1:]:
             wait_for(page, one)
-            give(page, one)
+            give(page, one.right)

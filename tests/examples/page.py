@@ -20,8 +20,6 @@ from waypost_server.auth import tokens
 from waypost_server.serving import Served
 from waypost_server.users import service as users
 
-ARROWS = {"←": "ArrowLeft", "→": "ArrowRight", "↑": "ArrowUp", "↓": "ArrowDown"}
-
 
 @dataclass(frozen=True)
 class Asked:
@@ -60,43 +58,6 @@ def asked(served: Served, domain: Domain, instance: Any) -> Iterator[list[Asked]
 def ids(client: Client, run: str, asks: list[wire.Ask]) -> list[int]:
     """Ask, and return the queries' numbers."""
     return [query.id for query in client.ask(run, asks)]
-
-
-def give(page: Page, one: Asked) -> None:
-    """Give the oracle's answer with the keys that the page shows."""
-    right = one.right
-    match right:
-        case wire.HierDemoAnswer():
-            page.locator("[data-stage=here]").wait_for()
-            for n, segment in enumerate(right.segments):
-                if n > 0:
-                    page.keyboard.press("Enter")  # the last subgoal is reached
-                press(page, "Subgoal", segment.subgoal)
-                for action in segment.actions:
-                    press(page, "Action", action)
-            page.get_by_text("The task is accomplished. Send the demonstration.").wait_for()
-        case wire.InspectAnswer():
-            page.keyboard.press(right.verdict[0])
-            return
-        case wire.LabelHiAnswer():
-            for subgoal in right.subgoals:
-                press(page, "Subgoal", subgoal)
-        case wire.LabelLoAnswer():
-            for action in right.actions:
-                if action is not None:
-                    press(page, "Action", action)
-            page.keyboard.press("d" if True in right.terminations else "n")  # done here, or not done
-        case wire.LabelFullAnswer():
-            for action in right.actions:
-                press(page, "Action", action)
-    page.keyboard.press("Enter")
-
-
-def press(page: Page, group: str, name: str) -> None:
-    """Press the key that the page shows for a subgoal or an action."""
-    button = page.locator(f"[role=group][aria-label^={group}] button[title='{name.replace('_', ' ')}']")
-    printed = button.locator("kbd").inner_text()
-    page.keyboard.press(ARROWS.get(printed, printed.lower()))
 
 
 def wait_for(page: Page, one: Asked) -> None:
