@@ -16,7 +16,7 @@ from waypost_server.db.wakeups import Hub
 from waypost_server.errors import StorageFailed
 from waypost_server.gold import practice_routes as practice
 from waypost_server.gold import routes as gold
-from waypost_server.gold.practice import PracticeSet
+from waypost_server.gold.practice import open_practice
 from waypost_server.http import description, page, problems, spa
 from waypost_server.http.context import VERSION, Context
 from waypost_server.http.guard import Guard
@@ -81,7 +81,7 @@ async def _lifespan(app: FastAPI, settings: Settings) -> AsyncIterator[None]:
     app.state.context = Context(settings, db, hub)
     app.state.credentials = CredentialCache(db)
     app.state.attempts = LoginAttempts(settings.login_failures)
-    app.state.practice = PracticeSet(settings.practice)
+    app.state.practice = await open_practice(db, settings.practice, settings.max_frame_bytes)
     app.state.relay = Relay()
     reaper = asyncio.create_task(_end_expired_leases(app.state.context))
     try:

@@ -1,7 +1,8 @@
 """Make practice queries: rollouts of a learner that sometimes errs, with the right answers from the domain's oracle."""
 
 import json
-from collections.abc import Callable, Iterator
+from base64 import b64encode
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -13,6 +14,7 @@ from waypost.domains import Domain, oracle_of
 from waypost.trajectory import Segment, Trajectory, n_steps
 from waypost_learner.algorithms.queries import InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, Query
 from waypost_learner.experts.solutions import solve
+from waypost_learner.remote.camera import Camera
 from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
 
@@ -28,6 +30,14 @@ class Rollout:
     instance: Any
     sigma: Trajectory
     succeeded: bool
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """An exercise as the file keeps it, and the PNG files of its frames by their hashes."""
+
+    content: dict[str, Any]
+    frames: dict[str, bytes]
 
 
 def practice(domain: Domain, instances: str, seed: int) -> str:
@@ -47,8 +57,18 @@ def practice(domain: Domain, instances: str, seed: int) -> str:
     exercises = [one for one in found if one is not None]
     if not exercises:
         raise ValueError("no rollout is suitable for practice: try another --seed")
-    lines = ",\n".join(json.dumps(one, ensure_ascii=False) for one in exercises)
-    return f'{{"vocabulary": {vocabulary(domain).model_dump_json()},\n"exercises": [\n{lines}\n]}}\n'
+    frames: dict[str, bytes] = {}
+    for one in exercises:
+        frames |= one.frames
+    pictures = [json.dumps({"hash": one, "png": b64encode(file).decode()}) for one, file in frames.items()]
+    parts = [f'"vocabulary": {vocabulary(domain).model_dump_json()}']
+    parts += [f'"frames": {_lines(pictures)}'] * bool(pictures)
+    parts += [f'"exercises": {_lines([json.dumps(one.content, ensure_ascii=False) for one in exercises])}']
+    return "{" + ",\n".join(parts) + "}\n"
+
+
+def _lines(values: Sequence[str]) -> str:
+    return "[\n" + ",\n".join(values) + "\n]"
 
 
 def _rollouts(domain: Domain, instances: str, seed: int) -> Iterator[Rollout]:
@@ -103,18 +123,23 @@ def _picks() -> list[Pick]:
     ]
 
 
-def _exercise(domain: Domain, rollouts: list[Rollout], place: int, pick: Pick) -> dict[str, Any] | None:
-    best: tuple[float, dict[str, Any]] = (0.0, {})
+def _exercise(domain: Domain, rollouts: list[Rollout], place: int, pick: Pick) -> Exercise | None:
+    best: tuple[float, Rollout, Query] | None = None
     for rollout in rollouts:
         translator = Translator(domain, rollout.instance)
         for query in pick.queries(rollout):
             ask = translator.ask(query, episode=0, ordinal=place)
-            solution = solve(domain, ask)
-            worth = float(pick.worth(solution.known, ask))
-            if worth > best[0]:
-                exercise = wire.KnownAsk(ask=ask, known=solution.known).model_dump(mode="json")
-                best = (worth, {**exercise, "reasons": list(solution.reasons)})
-    return best[1] or None
+            worth = float(pick.worth(solve(domain, ask).known, ask))
+            if worth > (best[0] if best else 0.0):
+                best = (worth, rollout, query)
+    if best is None:
+        return None
+    _, rollout, query = best
+    camera = Camera(domain, rollout.instance)  # only now, because pictures take long
+    ask = Translator(domain, rollout.instance, camera).ask(query, episode=0, ordinal=place)
+    solution = solve(domain, ask)
+    content = wire.KnownAsk(ask=ask, known=solution.known).model_dump(mode="json")
+    return Exercise({**content, "reasons": list(solution.reasons)}, camera.developed())
 
 
 # --- the queries of a rollout

@@ -10,8 +10,9 @@ from starlette.requests import HTTPConnection
 
 from waypost import wire
 from waypost_server import errors
+from waypost_server.db.engine import Database
 from waypost_server.gold import scoring
-from waypost_server.queries import checks
+from waypost_server.queries import checks, frames
 
 SHIPPED = Path(__file__).with_name("practice.json")
 
@@ -26,6 +27,7 @@ class PracticeFile(BaseModel):
     """The content of a file of practice queries."""
 
     vocabulary: wire.Vocabulary
+    frames: list[wire.Frame] = []  # the pictures of all states, for a domain without a renderer
     exercises: list[Exercise]
 
 
@@ -36,8 +38,8 @@ class BadPractice(Exception):
 class PracticeSet:
     """The practice queries of a server."""
 
-    def __init__(self, path: Path | None = None) -> None:
-        """Read the file at `path`, or the file in this package.
+    def __init__(self, path: Path | None = None, most_frame_bytes: int = 2**20) -> None:
+        """Read the file at `path`, or the file in this package. A frame may have at most `most_frame_bytes`.
 
         Raises:
             BadPractice: with one sentence for the operator.
@@ -46,6 +48,7 @@ class PracticeSet:
         try:
             self._file = PracticeFile.model_validate_json(chosen.read_bytes())
             self._names = checks.Names.of(self._file.vocabulary)
+            self.frames = frames.decode(self._file.frames, most_frame_bytes)
             for place, one in enumerate(self._file.exercises):
                 self._check(one, ["exercises", place])
         except (OSError, ValidationError, errors.Unprocessable) as error:
@@ -56,6 +59,9 @@ class PracticeSet:
 
     def _check(self, one: Exercise, at: errors.Location) -> None:
         checks.check_ask(one.ask, self._names, [*at, "ask"])
+        for segment in (*getattr(one.ask, "segments", ()), *one.ask.context):
+            if absent := set(segment.frames) - set(self.frames):
+                raise errors.Unprocessable([*at, "ask"], f"frame {min(absent)} is not in the file")
         scoring.check(one.ask, one.known, self._names, [*at, "known"])
 
     def questions(self) -> wire.Practice:
@@ -76,6 +82,18 @@ class PracticeSet:
         checks.check_answer(one.ask, answer, self._names, ["body", "answer"])
         marks = scoring.marks(one.known, answer)
         return wire.Feedback(marks=marks, reasons=one.reasons, is_right=all(mark.is_right for mark in marks))
+
+
+async def open_practice(db: Database, path: Path | None, most_frame_bytes: int) -> PracticeSet:
+    """Read the practice queries, and store their pictures, so that the web app finds them like those of a run.
+
+    Raises:
+        BadPractice: with one sentence for the operator.
+    """
+    practice = PracticeSet(path, most_frame_bytes)
+    if practice.frames:
+        await db.write(lambda tx: frames.store(tx, practice.frames))
+    return practice
 
 
 async def practice_of(connection: HTTPConnection) -> PracticeSet:

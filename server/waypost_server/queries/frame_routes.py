@@ -24,7 +24,7 @@ HEADERS = {
 @router.put("", status_code=204, operation_id="putFrames")
 async def put_frames(body: wire.FrameUpload, context: Ctx, _: LearnerCalls) -> None:
     """Upload pictures of states: all of them or none. Pictures that were uploaded before do not change."""
-    files = frames.decode(body, context.settings.max_frame_bytes)
+    files = frames.decode(body.frames, context.settings.max_frame_bytes)
     await context.db.write(lambda tx: frames.store(tx, files))
 
 

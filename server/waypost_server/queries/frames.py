@@ -19,13 +19,13 @@ _END = b"\x00\x00\x00\x00IEND\xaeB`\x82"
 _AT_ONCE = 500  # hashes looked up in one statement
 
 
-def decode(upload: wire.FrameUpload, most_bytes: int) -> dict[str, bytes]:
-    """Return the files of an upload by their hashes.
+def decode(uploaded: Iterable[wire.Frame], most_bytes: int) -> dict[str, bytes]:
+    """Return the PNG files of frames by their hashes.
 
     Raises:
         Unprocessable: a file is not a PNG, is too large, or does not match its hash.
     """
-    return {frame.hash: _decode(frame, place, most_bytes) for place, frame in enumerate(upload.frames)}
+    return {frame.hash: _decode(frame, place, most_bytes) for place, frame in enumerate(uploaded)}
 
 
 def _decode(frame: wire.Frame, place: int, most_bytes: int) -> bytes:

@@ -29,7 +29,7 @@ from waypost_learner.experts.practice import practice
 from waypost_learner.experts.solutions import solve
 from waypost_learner.remote.embedded import embedded
 from waypost_server.gold import scoring
-from waypost_server.gold.practice import SHIPPED, PracticeSet
+from waypost_server.gold.practice import SHIPPED, BadPractice, PracticeSet
 
 LABELS = ("inspect_full", "label_hi", "label_full")
 
@@ -81,6 +81,21 @@ def test_practice_is_made_for_any_domain_with_an_oracle(tmp_path: Path):
     file.write_text(practice(corridor, "random", seed=0))
     kinds = {one.ask.kind for one in PracticeSet(file).questions().queries}
     assert kinds == {"inspect_full", "inspect_lo", "label_hi", "label_lo", "label_full"}
+
+
+def test_practice_has_the_pictures_of_a_domain_that_draws_its_states(tmp_path: Path):
+    file = tmp_path / "practice.json"
+    file.write_text(practice(find_domain("corridor"), "random", seed=0))
+    made = PracticeSet(file)
+    segments = [one for query in made.questions().queries for one in (*query.ask.segments, *query.ask.context)]
+    assert all(len(one.frames) == len(one.states) for one in segments)
+    assert {frame for one in segments for frame in one.frames} == set(made.frames)
+
+    content = json.loads(file.read_text())
+    content["frames"].pop()
+    file.write_text(json.dumps(content))
+    with pytest.raises(BadPractice, match="is not in the file"):
+        PracticeSet(file)
 
 
 def test_a_runs_own_queries_become_gold_by_the_oracle(tmp_path: Path):

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from tests.server.kit import Json, Service, in_process
+from tests.server.kit import API, Json, Service, frame, in_process, png
 
 from waypost_server.gold.practice import SHIPPED, BadPractice, PracticeSet
 
@@ -74,3 +74,22 @@ def test_a_server_can_have_practice_of_its_own(sqlite_url: str, tmp_path: Path) 
     for path in (file, tmp_path / "missing.json"):
         with pytest.raises(BadPractice, match="has no practice queries"):
             PracticeSet(path)
+
+
+def test_the_pictures_of_practice_queries_are_served_like_those_of_a_run(sqlite_url: str, tmp_path: Path) -> None:
+    own, picture = json.loads(SHIPPED.read_text()), frame(png(7))
+    ask = own["exercises"][0]["ask"]
+    for one in ask["segments"]:
+        one["frames"] = [picture["hash"]] * len(one["states"])
+    own |= {"frames": [picture], "exercises": own["exercises"][:1]}
+    file = tmp_path / "practice.json"
+    file.write_text(json.dumps(own))
+    with in_process(sqlite_url, practice=file) as service:
+        (query,) = service.annotator.get("/practice")["queries"]
+        assert query["ask"]["segments"] == ask["segments"]
+        reply = service.client.get(f"{API}/frames/{picture['hash']}", headers=service.annotator.headers)
+        assert reply.content == png(7)
+    own["frames"][0] |= {"hash": "0" * 64}
+    file.write_text(json.dumps(own))
+    with pytest.raises(BadPractice, match="not the SHA-256"):
+        PracticeSet(file)

@@ -106,8 +106,7 @@ def _store(tx: Tx, target: Target, kind: type, batch: Sequence[Any]) -> None:
 
 
 def _frames(tx: Tx, _: Target, records: Sequence[wire.FrameRecord]) -> None:
-    upload = wire.FrameUpload(frames=[record.frame for record in records])
-    frames.store(tx, frames.decode(upload, MOST_FRAME_BYTES))
+    frames.store(tx, frames.decode((record.frame for record in records), MOST_FRAME_BYTES))
 
 
 # --- ledger and episodes
