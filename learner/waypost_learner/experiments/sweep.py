@@ -18,7 +18,7 @@ import joblib
 from waypost import wire
 from waypost_learner.remote.connection import Connection, connected
 from waypost_learner.remote.embedded import embedded
-from waypost_learner.runs.config import TrainConfig, config_values
+from waypost_learner.runs.config import TrainConfig, config_values, settings_of
 from waypost_learner.runs.training import RunOptions, train
 
 POLL_SECONDS = 2.0
@@ -84,7 +84,7 @@ def sweep(
 
 def finished(runs: Sequence[TrainConfig], connection: Connection) -> set[TrainConfig]:
     """Return the finished runs among `runs`."""
-    done = [run.config for run in connection.learner.runs() if run.state == "finished"]
+    done = [settings_of(run.config) for run in connection.learner.runs() if run.state == "finished"]
     return {config for config in runs if config_values(config) in done}
 
 
@@ -133,7 +133,7 @@ def _reporting(
     wanted = [config_values(config) for config in runs]
 
     def report() -> None:
-        known = [run for run in connection.learner.runs() if run.config in wanted]
+        known = [run for run in connection.learner.runs() if settings_of(run.config) in wanted]
         on_progress(Progress(sum(run.state == "finished" for run in known), sum(run.episodes_done for run in known)))
 
     def keep_reporting() -> None:

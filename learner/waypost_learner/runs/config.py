@@ -34,13 +34,18 @@ NOT_PROVIDED = "not_provided"
 """The name in a run's configuration under which it keeps what was used instead of missing parts of the domain."""
 
 
+def settings_of(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the part of a run's configuration that `config_values` wrote: without what was used instead of parts."""
+    return {name: value for name, value in values.items() if name != NOT_PROVIDED}
+
+
 def config_of(values: Mapping[str, Any]) -> TrainConfig:
     """Return the configuration that a run stores.
 
     Raises:
         TypeError: the values are no configuration of `waypost train`.
     """
-    return TrainConfig(**{name: value for name, value in values.items() if name != NOT_PROVIDED})
+    return TrainConfig(**settings_of(values))
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from waypost_learner.remote import stage
 from waypost_learner.remote.connection import Connection
 from waypost_learner.remote.translation import vocabulary
 from waypost_learner.runs import checkpoints
-from waypost_learner.runs.config import NOT_PROVIDED, START, Progress, TrainConfig, config_values
+from waypost_learner.runs.config import NOT_PROVIDED, START, Progress, TrainConfig, config_values, settings_of
 from waypost_learner.runs.driver import Driver, Hooks, Offer
 from waypost_learner.runs.run_queue import RunQueue
 from waypost_learner.runs.setup import Setup, set_up
@@ -128,7 +128,7 @@ def _find_or_create_run(setup: Setup, client: Client, options: RunOptions) -> wi
     values = config_values(config)
     if options.resume:
         for run in client.runs():
-            same = {name: value for name, value in run.config.items() if name != NOT_PROVIDED} == values
+            same = settings_of(run.config) == values
             if same and run.state != "finished" and options.name in (None, run.name):
                 return run
     return client.create_run(

@@ -7,7 +7,7 @@ from typing import Protocol
 from waypost import wire
 from waypost.client import Client
 from waypost_learner.experiments.figures.data import RunCurves
-from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.config import TrainConfig, config_of
 
 
 class Source(Protocol):
@@ -47,6 +47,6 @@ def read(source: Source, wanted: Sequence[TrainConfig]) -> dict[TrainConfig, Run
 def _config(run: wire.Run) -> TrainConfig | None:
     """Return the configuration of a run, or None if this version does not know one of its fields."""
     try:
-        return TrainConfig(**run.config)  # type: ignore[arg-type]  # values of wrong types equal no needed configuration
+        return config_of(run.config)  # values of wrong types equal no needed configuration
     except TypeError:
         return None
