@@ -100,10 +100,10 @@ def train(
             algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start, values
         )
         setup = set_up(config, threads)  # refuses a wrong configuration before the store is created
-        for part, instead in setup.missing.items():
-            typer.echo(f"The domain {domain!r} provides no {part}. {instead}", err=True)
         loggers = tuple(word.strip() for words in log or ["tensorboard"] for word in words.split(","))
         check(loggers)  # likewise
+        for part, instead in setup.missing.items():
+            typer.echo(f"The domain {domain!r} provides no {part}. {instead}", err=True)
         folder = checkpoint_folder(checkpoints, store, server)
         options = RunOptions(name, budget, resume, folder, threads, loggers, server)
         with ExitStack() as stack:

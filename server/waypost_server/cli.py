@@ -87,11 +87,12 @@ def _serve(settings: Settings, host: str, bound: socket.socket) -> None:
         link = administrator_url(db, serving.url_of(bound), chosen.link_seconds)
     finally:
         db.close()
+    app = create_app(chosen)  # before the link is printed: while it runs, pydantic sometimes swallows a Ctrl-C
     typer.echo(f"Waypost serves {db.url.render_as_string()} at {serving.url_of(bound)}")
     typer.echo(f"Log in with this link (it works once, for {chosen.link_seconds / 60:.0f} minutes): {link}")
     if chosen.page is None and spa.find() is None:
         typer.echo("The web app is not built; `make web` builds it.")
-    serving.foreground(create_app(chosen), bound)
+    serving.foreground(app, bound)
 
 
 @app.command()

@@ -161,7 +161,7 @@ def test_people_gold_and_practice_are_accessible(open_page: Open, learner: Learn
             page.get_by_role("heading", level=1, name=heading).wait_for()
             assert violations(page) == [], (path, scheme)
             if path == "/people":
-                page.get_by_role("link", name="learner").click()
+                page.get_by_role("link", name="learner", exact=True).click()
                 page.get_by_role("heading", level=1, name="learner").wait_for()
                 assert violations(page) == [], ("person", scheme)
         page.get_by_role("button", name="Mark as gold").first.click()

@@ -152,6 +152,8 @@ class Session:
                 os.killpg(program.pid, signal.SIGKILL)
             except ProcessLookupError:
                 continue
+            finally:
+                program.wait()
         if self._python is not None:
             self._python.communicate()
         assert ended == [], "these blocks ended by themselves"

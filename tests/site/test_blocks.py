@@ -102,8 +102,9 @@ def tmp_path_of(folder: Path, number: int) -> Path:
 
 
 def test_a_program_that_should_run_on_but_ends_would_be_noticed(tmp_path):
+    page = [Block("a:1", "sh", "true", ("runs until it is stopped",)), Block("a:2", "sh", "sleep 1")]
     with pytest.raises(AssertionError, match="ended"), session(tmp_path) as opened:
-        opened.run(Block("a:1", "sh", "true", ("runs until it is stopped",)))
+        list(map(opened.run, page))
 
 
 def test_later_blocks_see_what_earlier_ones_exported_and_printed(tmp_path):
