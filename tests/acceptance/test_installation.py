@@ -114,7 +114,7 @@ def test_the_tutorial_and_the_demo_work_from_the_wheel_without_node(
     assert {"hier_demo", "inspect_full"} <= set(answered)
     assert (terminal.folder / "first" / "README.md").is_file()
 
-    terminal.run("waypost demo --port 0 --database sqlite:///demo.db > demo.log 2>&1 &")
+    terminal.run("waypost demo --port 0 --database demo.db > demo.log 2>&1 &")
     page.goto(login_link(terminal.folder / "demo.log"))
     expect(page.get_by_text(re.compile("^(Inspect|Label)_")).first).to_be_visible(timeout=PATIENCE_SECONDS * 1_000)
     assert not terminal.use_of_node.exists()

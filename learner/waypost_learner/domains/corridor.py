@@ -19,6 +19,7 @@ from waypost.domains import Horizons, InstanceSets, Symmetry
 from waypost.trajectory import Outcome
 
 CELLS = 13
+OBSERVED = CELLS + 2 * CELLS - 1  # numbers in an observation
 DOOR_SPACING = 4  # cells from one door to the next
 MAX_STEPS = 30
 WEST, EAST, TARGET = 0, 1, 2
@@ -37,15 +38,17 @@ class Corridor:
 class CorridorEnv(gymnasium.Env[NDArray[np.float32], np.int64]):
     """The corridor as a gymnasium environment.
 
-    The observation is float32[26]: the agent's cell and the target's cell, both one-hot. The reward is 1 on the target,
-    which ends the episode, and 0 elsewhere. At the ends of the corridor the agent stays where it is.
+    The observation is float32[38]: the agent's cell, and how far the target is to the east of it, from -12 to 12; both
+    one-hot. (With the target's cell instead, what is learned about one pair of cells says little about other pairs.)
+    The reward is 1 on the target, which ends the episode, and 0 elsewhere. At the ends of the corridor the agent stays
+    where it is.
     """
 
     metadata = {"render_modes": []}  # noqa: RUF012 (gymnasium's own form)
 
     def __init__(self) -> None:
         self.action_space = spaces.Discrete(2)
-        self.observation_space = spaces.Box(0.0, 1.0, (2 * CELLS,), np.float32)
+        self.observation_space = spaces.Box(0.0, 1.0, (OBSERVED,), np.float32)
         self.corridor = Corridor(0, CELLS - 1)
         self.cell = self.steps = 0
 
@@ -67,8 +70,8 @@ class CorridorEnv(gymnasium.Env[NDArray[np.float32], np.int64]):
         return self._observe(), float(arrived), arrived, not arrived and self.steps >= MAX_STEPS, {}
 
     def _observe(self) -> NDArray[np.float32]:
-        observation = np.zeros(2 * CELLS, np.float32)
-        observation[self.cell] = observation[CELLS + self.corridor.target] = 1
+        observation = np.zeros(OBSERVED, np.float32)
+        observation[self.cell] = observation[OBSERVED - CELLS - self.cell + self.corridor.target] = 1
         return observation
 
 
@@ -130,10 +133,10 @@ class CorridorDomain:
     actions = ("west", "east")
     renderer = "corridor"
     horizons = Horizons(lo=6, hi=MAX_STEPS, full=MAX_STEPS)
-    observation_shape = (2 * CELLS,)
+    observation_shape = (OBSERVED,)
     symmetries = (
         Symmetry(
-            # Mirror both one-hot halves, so that west and east change places.
+            # Mirror both one-hot parts, so that west and east change places.
             observe=lambda observation: np.concatenate([observation[CELLS - 1 :: -1], observation[: CELLS - 1 : -1]]),
             subgoals=(EAST, WEST, TARGET),
             actions=(EAST, WEST),

@@ -153,7 +153,7 @@ def test_another_seed_gives_other_weights() -> None:
 def test_policies_whose_buffer_did_not_grow_are_not_trained() -> None:
     learner = Learner(CorridorDomain(), TINY, seed=0, threads=1)
     before = {key: weights(one) for key, one in learner.policies.items()}
-    labels = random_labels(0, (26,), [pi(1)])
+    labels = random_labels(0, (38,), [pi(1)])
     labels.append_lo(segment(2, n_actions=1), LoLabels((None,), (True, False)))  # gives no row
     learner.learn(labels)
     changed = {key for key, one in learner.policies.items() if not all(equal(before[key], weights(one)))}
@@ -164,7 +164,7 @@ def test_policies_that_train_every_episode_do_so_without_new_labels_too() -> Non
     learner = Learner(
         CorridorDomain(), TINY.with_values(train_hi=replace(TINY_TRAIN, every_episode=True)), 0, threads=1
     )
-    learner.learn(random_labels(0, (26,), [META, pi(1)]))
+    learner.learn(random_labels(0, (38,), [META, pi(1)]))
     before = {key: weights(one) for key, one in learner.policies.items()}
     learner.learn(Labels())
     changed = {key for key, one in learner.policies.items() if not all(equal(before[key], weights(one)))}

@@ -68,9 +68,9 @@ def test_a_policy_that_never_learned_anything_is_restored_too(path: Path) -> Non
     resumed = learner(seed=99)
     checkpoints.load(path, resumed)
     assert len(resumed.data[pi(1)]) == 0
-    resumed.learn(random_labels(9, (26,), [pi(1)]))
+    resumed.learn(random_labels(9, (38,), [pi(1)]))
     uninterrupted = trained(2)
-    uninterrupted.learn(random_labels(9, (26,), [pi(1)]))
+    uninterrupted.learn(random_labels(9, (38,), [pi(1)]))
     assert weights_hash(resumed) == weights_hash(uninterrupted)
 
 
@@ -80,7 +80,7 @@ def test_weights_alone_are_enough_to_act_as_before(path: Path) -> None:
     restored = learner(seed=99)
     checkpoints.load(path, restored)
     assert weights_hash(restored) == weights_hash(original)
-    seen = np.random.default_rng(0).random((4, 26)).astype(np.float32)
+    seen = np.random.default_rng(0).random((4, 38)).astype(np.float32)
     np.testing.assert_array_equal(restored.policies[pi(0)](seen).logits, original.policies[pi(0)](seen).logits)
 
 
@@ -182,5 +182,5 @@ def test_the_hash_changes_with_any_single_weight() -> None:
 
 def test_the_hash_depends_on_the_weights_alone() -> None:
     one, other = learner(), learner()
-    other.data[pi(0)].append([Row(np.zeros(26, np.float32), 1)])
+    other.data[pi(0)].append([Row(np.zeros(38, np.float32), 1)])
     assert weights_hash(one) == weights_hash(other)
