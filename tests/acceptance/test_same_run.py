@@ -19,6 +19,7 @@ from tests.acceptance.processes import (
 )
 
 from waypost import wire
+from waypost.domains import find_domain
 from waypost_learner.experts.bot import Bot, BotSettings
 
 KILLS = 20
@@ -54,7 +55,7 @@ def test_two_bots_and_a_browser_taking_turns_give_the_same_run(
 ) -> None:
     page.goto(server.login_link("person"))
     page.wait_for_url("**/work")
-    person = Person(page, server.client("learner", "learner"))
+    person = Person(page, server.client("learner", "learner"), find_domain("maze"))
     with bot(server, "bot one", "--seconds", "0.1"), bot(server, "bot two", "--seconds", "0.1"):
         learner = start_learner(server, (*VALUES, *LENGTH))
         person.work_until(lambda: learner.poll() is not None)
