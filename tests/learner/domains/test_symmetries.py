@@ -80,7 +80,8 @@ def test_the_corridors_expert_says_the_same_of_the_mirrored_corridor(cell: int, 
         env = domain.make_env()
         observation, _ = env.reset(options={"instance": Corridor(cell, target)})
         mirrored = symmetry.observe(observation)
-        there, goal = int(np.argmax(mirrored[:CELLS])), int(np.argmax(mirrored[CELLS:]))
+        there = int(np.argmax(mirrored[:CELLS]))
+        goal = there + int(np.argmax(mirrored[CELLS:])) - (CELLS - 1)
         here = domain.oracle.good_subgoals({"target": target}, cell)
         assert [symmetry.subgoals[g] for g in here] == list(domain.oracle.good_subgoals({"target": goal}, there))
 

@@ -31,7 +31,8 @@ def exported(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFa
 
 def at(observation: np.ndarray) -> tuple[int, int]:
     """The agent's cell and the target in an observation."""
-    return int(observation[:CELLS].argmax()), int(observation[CELLS:].argmax())
+    cell = int(observation[:CELLS].argmax())
+    return cell, cell + int(observation[CELLS:].argmax()) - (CELLS - 1)
 
 
 def test_observations_are_those_of_the_environment(exported: tuple[Path, str, list[Any]]) -> None:
