@@ -18,6 +18,8 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from waypost import prices as pricing
 from waypost import wire
 from waypost.trajectory import Segment, State
@@ -174,7 +176,7 @@ def questions(domain: CorridorDomain, instance: Any) -> list[tuple[wire.Ask, wir
         wish = step % 2
         actions.append(1 - wish if moved(cells[-1], wish) == instance.target else wish)
         cells.append(moved(cells[-1], actions[-1]))
-    states = [State(None, cell) for cell in cells]  # type: ignore[arg-type]  # nothing looks at it
+    states = [State(np.empty(0, np.float32), cell) for cell in cells]  # queries have views, not observations
     sigma = tuple(
         Segment(action, (states[step], states[step + 1]), (action,), terminated=True)
         for step, action in enumerate(actions)

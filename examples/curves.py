@@ -19,7 +19,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from waypost import wire
-from waypost.domains import Domain, find_domain
+from waypost.domains import Domain, find_domain, place_of
 from waypost_learner.commands import checkpoint_folder
 from waypost_learner.experiments.figures import look
 from waypost_learner.experiments.figures.statistics import Track, spread
@@ -103,7 +103,7 @@ def newest(runs: Sequence[wire.Run]) -> Sequence[wire.Run]:
 def domain_of(store: Path) -> Domain:
     """Return the domain of the runs in a store."""
     with stored_runs(store) as runs:
-        return find_domain(str(runs.runs()[0].config["domain"]))
+        return find_domain(place_of(runs.runs()[0]))
 
 
 def random_actions(domain: Domain) -> Iterator[Row]:

@@ -41,8 +41,6 @@ class FlightDialogue(gymnasium.Env[NDArray[np.float32], np.int64]):
     booking a flight to which the user agreed.
     """
 
-    metadata = {"render_modes": []}  # noqa: RUF012 (gymnasium's own form)
-
     def __init__(self) -> None:
         self.observation_space = spaces.Box(0, 1, (len(SLOTS) + 2 + WORDS,), np.float32)
         self.action_space = spaces.Discrete(len(ACTIONS))
@@ -176,6 +174,12 @@ class FlightDialogue(gymnasium.Env[NDArray[np.float32], np.int64]):
         return np.array([*known, left, none, *words], np.float32)
 
 
+def view(env: Any) -> State:
+    """Return the tracker's state: what experts see, and the turns so far."""
+    state: State = copy.deepcopy(env.state)
+    return state
+
+
 # --- the expert: what to say follows from the tracker's state, never from the user's hidden wishes
 
 
@@ -225,7 +229,7 @@ flight_dialogue = waypost.domain(
     subgoals=[*(f"ask_{slot}" for slot in SLOTS), "offer", "confirm"],
     actions=ACTIONS,
     horizons=(8, 16, 40),
-    state=lambda env: copy.deepcopy(env.state),  # type: ignore[attr-defined]  # it is a FlightDialogue
+    state=view,
     succeeded=succeeded,
     reached=reached,
     good_subgoals=good_subgoals,

@@ -227,10 +227,7 @@ def gold(
 def practice(
     file: Annotated[Path, typer.Argument(help="The file to write.")],
     domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
-    instances: Annotated[
-        str | None,
-        typer.Option(help="Instances: a name or a file.", show_default="corners for the maze, else random"),
-    ] = None,
+    instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "random",
     seed: Annotated[int, typer.Option(min=0, help="The seed of the rollouts.")] = 0,
 ) -> None:
     """Write practice queries with the oracle's right answers. `WAYPOST_PRACTICE=FILE` makes a server offer them."""
@@ -238,7 +235,7 @@ def practice(
         from waypost.domains import find_domain
         from waypost_learner.experts.practice import practice as made
 
-        found = made(find_domain(domain), instances or ("corners" if domain == "maze" else "random"), seed)
+        found = made(find_domain(domain), instances, seed)
     file.write_text(found, encoding="utf-8")
     typer.echo(f"The practice queries are in {file}.")
 

@@ -7,7 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 
 import pytest
@@ -62,7 +62,8 @@ class Terminal:
 
     def close(self) -> None:
         """End everything that runs in the terminal."""
-        os.killpg(self._shell.pid, signal.SIGTERM)
+        with suppress(ProcessLookupError):
+            os.killpg(self._shell.pid, signal.SIGTERM)
         self._shell.communicate()
 
 

@@ -22,7 +22,6 @@ from waypost_control import (
     upright_pendulum,
 )
 
-from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.rollout.simulator import Simulator
 
 DOMAIN = "waypost_control:upright_pendulum"
@@ -52,20 +51,6 @@ def test_an_action_accelerates_the_pendulum_as_the_constants_say(seed: int, name
         speed += (GRAVITY * math.sin(angle) + STRENGTH * TORQUES[name]) * 0.05
         angle += speed * 0.05
     assert angle_and_speed(env.inner) == pytest.approx((math.remainder(angle, 2 * math.pi), speed), abs=1e-5)
-
-
-@pytest.mark.parametrize("instances", ["train", "test"])
-def test_the_oracle_solves_instances_within_the_horizons(instances: str) -> None:
-    expert = OracleExpert(upright_pendulum)
-    for seed in getattr(upright_pendulum.instances("random"), instances)[:50]:
-        simulator = Simulator(upright_pendulum)
-        segments = expert.demonstrate(seed, simulator.reset(seed).view).segments
-        for action in [action for segment in segments for action in segment.actions]:
-            simulator.step(upright_pendulum.actions.index(action))
-        assert simulator.succeeded
-        assert simulator.steps <= HORIZONS.full
-        assert len(segments) <= HORIZONS.hi
-        assert max(len(segment.actions) for segment in segments) <= HORIZONS.lo
 
 
 @examples

@@ -43,3 +43,18 @@ def test_the_oracle_answers_every_kind_of_query_and_its_demonstration_succeeds(p
     assert isinstance(lo, wire.LabelLoAnswer)
     assert isinstance(flat, wire.LabelFullAnswer)
     assert len(flat.actions) == sum(len(segment.actions) for segment in asks[-1].segments)
+
+
+@pytest.mark.parametrize("instances", ["train", "test"])
+def test_the_oracle_solves_instances_within_the_horizons(place: str, instances: str) -> None:
+    domain = find_domain(place)
+    expert, horizons = OracleExpert(domain), domain.horizons
+    for instance in getattr(domain.instances("random"), instances)[:50]:
+        simulator = Simulator(domain)
+        segments = expert.demonstrate(instance, simulator.reset(instance).view).segments
+        for action in [action for segment in segments for action in segment.actions]:
+            simulator.step(domain.actions.index(action))
+        assert simulator.succeeded
+        assert simulator.steps <= horizons.full
+        assert len(segments) <= horizons.hi
+        assert max(len(segment.actions) for segment in segments) <= horizons.lo

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from tests.acceptance.processes import free_port
@@ -146,18 +146,23 @@ class Session:
         for _, program in self._endless:
             if program.poll() is None:
                 os.killpg(program.pid, signal.SIGINT)
-        codes = {block.place: program.wait(PATIENCE_SECONDS) for block, program in self._endless}
+        codes = {block.place: exit_code(program) for block, program in self._endless}
         for program in self._programs:
-            try:
+            with suppress(ProcessLookupError):
                 os.killpg(program.pid, signal.SIGKILL)
-            except ProcessLookupError:
-                continue
-            finally:
-                program.wait()
+            program.wait()
         if self._python is not None:
             self._python.communicate()
         assert ended == [], "these blocks ended by themselves"
         assert set(codes.values()) <= {0, 130, -signal.SIGINT}, codes
+
+
+def exit_code(program: subprocess.Popen[bytes]) -> int | None:
+    """Wait for a program to end; return None if it does not."""
+    try:
+        return program.wait(PATIENCE_SECONDS)
+    except subprocess.TimeoutExpired:
+        return None
 
 
 @contextmanager

@@ -44,8 +44,6 @@ class CorridorEnv(gymnasium.Env[NDArray[np.float32], np.int64]):
     where it is.
     """
 
-    metadata = {"render_modes": []}  # noqa: RUF012 (gymnasium's own form)
-
     def __init__(self) -> None:
         self.action_space = spaces.Discrete(2)
         self.observation_space = spaces.Box(0.0, 1.0, (OBSERVED,), np.float32)

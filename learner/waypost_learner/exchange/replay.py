@@ -12,7 +12,7 @@ from itertools import groupby
 from typing import Any
 
 from waypost import wire
-from waypost.domains import Domain, find_domain
+from waypost.domains import Domain, find_domain, place_of
 from waypost.trajectory import Segment, Trajectory
 from waypost_learner.experts.head_start import head_start
 from waypost_learner.rollout.simulator import Simulator
@@ -161,8 +161,7 @@ class Replayer:
 
 
 def _domain(run: wire.Run) -> Domain:
-    # A domain that is not installed is found where its run found it.
-    domain, names = find_domain(str(run.config.get("domain", run.vocabulary.domain))), run.vocabulary
+    domain, names = find_domain(place_of(run)), run.vocabulary
     if (list(domain.subgoals), list(domain.actions)) != (names.subgoals, names.actions):
         raise ValueError(f"the domain {domain.name!r} has other subgoals or actions than run {run.id}")
     return domain

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from waypost import wire
+from waypost.domains import place_of
 from waypost_learner.algorithms import ALGORITHMS
 from waypost_learner.exchange.labels import labels_of
 from waypost_learner.exchange.replay import Replayer
@@ -84,5 +85,4 @@ def _config(run: wire.Run, values: dict[str, Any]) -> TrainConfig:
     cloning = [known for known, one in ALGORITHMS.items() if not one.interactive and not one.levels.reinforced]
     if name not in cloning:
         raise ValueError(f"{name} does not learn from given labels alone; choose one of: {', '.join(cloning)}")
-    domain = str(run.config.get("domain", run.vocabulary.domain))
-    return TrainConfig(domain=domain, instances=str(run.config.get("instances", "random")), **values)
+    return TrainConfig(domain=place_of(run), instances=str(run.config.get("instances", "random")), **values)

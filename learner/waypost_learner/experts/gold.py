@@ -2,7 +2,7 @@
 
 from waypost import wire
 from waypost.client import Client
-from waypost.domains import find_domain
+from waypost.domains import find_domain, place_of
 from waypost_learner.experts.solutions import solve
 
 
@@ -17,9 +17,9 @@ def make_gold(client: Client, run: str, queries: int) -> int:
         queries: the number of answered queries to take, newest first.
 
     Raises:
-        ValueError: the run's domain has no oracle, or is not installed.
+        ValueError: the run's domain has no oracle, or is not found.
     """
-    domain = find_domain(client.run(run).vocabulary.domain)
+    domain = find_domain(place_of(client.run(run)))
     asked, cursor = list[wire.Ask](), 0
     while (page := client.answers(run, after=cursor)).queries:
         asked += [query.ask for query in page.queries if query.ask.kind != "hier_demo"]

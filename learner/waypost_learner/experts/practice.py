@@ -62,8 +62,9 @@ def practice(domain: Domain, instances: str, seed: int) -> str:
         frames |= one.frames
     pictures = [json.dumps({"hash": one, "png": b64encode(file).decode()}) for one, file in frames.items()]
     parts = [f'"vocabulary": {vocabulary(domain).model_dump_json()}']
-    parts += [f'"frames": {_lines(pictures)}'] * bool(pictures)
-    parts += [f'"exercises": {_lines([json.dumps(one.content, ensure_ascii=False) for one in exercises])}']
+    if pictures:
+        parts.append(f'"frames": {_lines(pictures)}')
+    parts.append(f'"exercises": {_lines([json.dumps(one.content, ensure_ascii=False) for one in exercises])}')
     return "{" + ",\n".join(parts) + "}\n"
 
 

@@ -2,7 +2,7 @@
 
 from waypost.domains.contract import Domain, Horizons, InstanceSets
 from waypost.domains.failures import DomainFailed
-from waypost.domains.find import find_domain, installed
+from waypost.domains.find import find_domain, installed, place_of
 from waypost.domains.parts import (
     Ending,
     Grid,
@@ -60,6 +60,7 @@ __all__ = [
     "installed",
     "interval_of_tests",
     "oracle_of",
+    "place_of",
     "renderer_of",
     "replay_of",
     "symmetries_of",

@@ -5,6 +5,7 @@ import sys
 from importlib.metadata import EntryPoints, entry_points
 from pathlib import Path
 
+from waypost import wire
 from waypost.domains.contract import MEMBERS, Domain
 
 GROUP = "waypost.domains"
@@ -30,6 +31,11 @@ def find_domain(name: str) -> Domain:
             "Write MODULE:ATTRIBUTE for a domain that is not installed"
         )
     return _made(found[name].load(), name)
+
+
+def place_of(run: wire.Run) -> str:
+    """Return where the domain of a run is found: where the run found it, else under the name in its vocabulary."""
+    return str(run.config.get("domain", run.vocabulary.domain))
 
 
 def installed() -> list[str]:

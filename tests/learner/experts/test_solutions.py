@@ -70,7 +70,7 @@ def test_a_demonstration_is_not_known_beforehand():
 
 def test_the_practice_that_ships_is_what_the_command_makes(tmp_path: Path):
     file = tmp_path / "practice.json"
-    done = CliRunner().invoke(app, ["practice", str(file)])
+    done = CliRunner().invoke(app, ["practice", str(file), "--instances", "corners"])
     assert done.exit_code == 0, done.output
     assert json.loads(file.read_text()) == json.loads(SHIPPED.read_text())
 

@@ -1,5 +1,6 @@
 // Several runs in one chart: groups that differ only by seed, their median and range.
 import type { Curves, Run } from '../../api/types';
+import { settingsOf } from '../configuration';
 import { X_AXES, type XAxisName } from './curves';
 
 /** Runs that differ only by seed. */
@@ -43,14 +44,9 @@ export function grouped(runs: readonly Run[], apart: boolean): Group[] {
 
 function factsOf(run: Run | undefined): Map<string, string> {
   if (run === undefined) return new Map();
-  const { seed: _, not_provided: __, ...config } = run.config;
-  const facts = { ...config, algorithm: run.algorithm, domain: run.vocabulary.domain };
-  return new Map(
-    Object.entries(facts).map(([name, value]) => [
-      name,
-      typeof value === 'string' ? value : JSON.stringify(value),
-    ]),
-  );
+  const facts = new Map(settingsOf(run)).set('algorithm', run.algorithm).set('domain', run.vocabulary.domain);
+  facts.delete('seed');
+  return facts;
 }
 
 function sameBut(run: Run): string {
