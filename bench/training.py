@@ -20,7 +20,6 @@ import tempfile
 import time
 from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -39,6 +38,7 @@ from waypost_learner.rollout.simulator import Simulator
 
 ROUNDS = 5
 SPEC = PAPER.training.train_hi
+CHANNELS, HIDDEN = (32, 64), 256  # of Table 1's network
 Round = Callable[[], float]  # does one round of work and returns its duration in seconds
 
 
@@ -63,10 +63,7 @@ def observations(n: int) -> Dataset:
 
 def plain_network(dropout: float) -> nn.Sequential:
     """Return the network of Table 1, built from torch's layers."""
-    network = PAPER.training.network
-    return nn.Sequential(
-        *table_1((3, 17, 17), network.channels, network.hidden, dropout), nn.Linear(network.hidden, len(SUBGOALS))
-    )
+    return nn.Sequential(*table_1((3, 17, 17), CHANNELS, HIDDEN, dropout), nn.Linear(HIDDEN, len(SUBGOALS)))
 
 
 def plain_loop(data: Dataset, rows: int, bf16: bool) -> Callable[[], None]:
@@ -102,7 +99,8 @@ def imitation(data: Dataset, folder: Path) -> Peer:
         batch=SPEC.batch,
         learning_rate=SPEC.learning_rate,
         dropout=SPEC.dropout,
-        **asdict(PAPER.training.network),
+        channels=CHANNELS,
+        hidden=HIDDEN,
     )
 
 

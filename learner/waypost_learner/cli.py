@@ -271,6 +271,23 @@ def check_domain(
         raise typer.Exit(1)
 
 
+@domain_app.command("build")
+def build_domain(
+    name: Annotated[str, typer.Argument(help="The domain's name, or MODULE:ATTRIBUTE if it is not installed.")],
+    file: Annotated[Path, typer.Argument(help="The file to write.")],
+) -> None:
+    """Compute the data that a domain's oracle looks up. An interrupted command continues when it is given again."""
+    with learner_errors("Interrupted. The same command continues where it stopped."):
+        from waypost.domains import Computed, find_domain
+
+        domain = find_domain(name)
+        if not isinstance(domain, Computed):
+            refuse(f"The domain {domain.name!r} has no data to compute.")
+        with _BuildingProgress() as progress:
+            domain.build(file, progress.show)
+    typer.echo(f"The data is in {file}.")
+
+
 def main() -> None:
     """Run `waypost`."""
     app()
@@ -317,6 +334,23 @@ class _TrainingProgress:
             self._tests = [*self._tests, result.test_success][-100:]
         rate = sum(self._tests) / max(len(self._tests), 1)
         self._bar.update(self._task, advance=1, description=f"success {rate:.0%} (trailing {len(self._tests)})")
+
+
+class _BuildingProgress:
+    """One progress bar for each thing that is computed."""
+
+    def __enter__(self) -> "_BuildingProgress":
+        self._bar, self._tasks = progress_bar(), dict[str, Any]()
+        self._bar.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.stop()
+
+    def show(self, what: str, done: int, known: int) -> None:
+        if what not in self._tasks:
+            self._tasks[what] = self._bar.add_task(what)
+        self._bar.update(self._tasks[what], completed=done, total=known)
 
 
 def _report_failure(assignment: Assignment, error: Exception) -> None:

@@ -42,7 +42,8 @@ def learner_errors(interrupted: str = "Interrupted.") -> Iterator[None]:
     try:
         yield
     except ModuleNotFoundError as error:
-        refuse(f"This needs the package {error.name}: install the learner with `pip install 'waypost[learner]'`.")
+        extra, what = ("atari", "it") if error.name == "ale_py" else ("learner", "the learner")
+        refuse(f"This needs the package {error.name}: install {what} with `pip install 'waypost[{extra}]'`.")
     except ValueError as error:
         refuse(_sentence(error))
     except KeyboardInterrupt:

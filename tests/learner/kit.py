@@ -17,7 +17,7 @@ from waypost_learner.domains.maze.maze import ROOMS, SIZE, Cell, Maze, closed_ro
 from waypost_learner.policies.dqn import DqnSpec
 from waypost_learner.policies.imitation import TrainSpec
 from waypost_learner.policies.labels import Labels, LoLabels
-from waypost_learner.policies.networks import NetworkSpec
+from waypost_learner.policies.networks import NetworkSpec, blocks
 from waypost_learner.presets import PRESETS
 from waypost_learner.presets.base import Preset, Training
 from waypost_learner.remote.connection import Connection
@@ -32,7 +32,7 @@ TINY = Preset(
     warm_start=3,
     rollouts=RolloutSpec(SelectionSpec(temperature=0.5, termination_threshold=0.9)),
     training=Training(
-        network=NetworkSpec(channels=(4, 4), hidden=16),
+        network=NetworkSpec(blocks(4, 4), hidden=16),
         train_hi=TINY_TRAIN,
         train_lo=TINY_TRAIN,
         train_flat=TINY_TRAIN,

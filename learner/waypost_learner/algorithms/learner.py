@@ -129,6 +129,7 @@ class Learner:
             rollouts.choosing,
             np.random.default_rng([self.seed, stream, number]),
             rollouts.h_hi or self.domain.horizons.hi,
+            rollouts.h_lo or self.domain.horizons.lo,
             {key: q.epsilon if stream == streams.TRAIN else 0.0 for key, q in exploring.items()},
             self.levels.q_lo,
             rollouts.repeat_penalty,

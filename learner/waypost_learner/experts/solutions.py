@@ -93,8 +93,10 @@ def _actions(domain: Domain, oracle: Oracle, ask: wire.AskLabelFull) -> Solution
                 for action in oracle.good_actions(ask.instance, state, state, subgoal)
             }
             names = [domain.actions[action] for action in good]
-            right.append(names)
-            reasons.append(_reason(names, own, "is on a shortest path"))
+            right.append(names or list(domain.actions))
+            reasons.append(
+                _reason(names, own, "is on a shortest path") if names else "No action leads to the goal from here."
+            )
     return Solution(wire.KnownActions(kind="label_full", actions=right), tuple(reasons))
 
 

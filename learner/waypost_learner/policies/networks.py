@@ -1,6 +1,7 @@
-"""Networks: the one of Table 1, one that plans over the places of a view, and one for observations that are vectors."""
+"""Networks: convolutional ones for pictures, one that plans over the places of a view, and one for vectors."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 import torch
 from torch import nn
@@ -10,11 +11,33 @@ from waypost.domains import Grid
 
 
 @dataclass(frozen=True)
-class NetworkSpec:
-    """Sizes of the network of Table 1: blocks of two 3x3 convolutions and a 2x2 max-pool, then one hidden layer."""
+class Convolution:
+    """One convolution, followed by a ReLU."""
 
-    channels: tuple[int, ...] = (32, 64)  # of each block
-    hidden: int = 256  # units of the fully connected layer
+    channels: int
+    kernel: int  # side of the square, in pixels
+    stride: int = 1
+    padding: Literal["same", "valid"] = "valid"
+    pool: bool = False  # whether a 2x2 max-pool and dropout follow
+
+
+def blocks(*channels: int) -> tuple[Convolution, ...]:
+    """Return the convolutions of Table 1: blocks of two 3x3 convolutions and a 2x2 max-pool, with these channels."""
+    return tuple(
+        one
+        for width in channels
+        for one in (Convolution(width, 3, padding="same"), Convolution(width, 3, padding="valid", pool=True))
+    )
+
+
+@dataclass(frozen=True)
+class NetworkSpec:
+    """The layers of a network for pictures: convolutions, then one hidden layer. For vectors: two hidden layers."""
+
+    convolutions: tuple[Convolution, ...] = blocks(32, 64)
+    hidden: int = 256  # units of a hidden layer
+    # The standard deviation of its initial weights, which are then normal (Table 2); Glorot's method if None.
+    hidden_std: float | None = None
 
 
 @dataclass(frozen=True)
@@ -78,33 +101,33 @@ def build_network(
 
 
 class ConvNet(nn.Sequential):
-    """Maps pictures float32[B, C, rows, columns] to logits float32[B, outputs] (Table 1)."""
+    """Maps pictures float32[B, C, rows, columns] to logits float32[B, outputs] (Tables 1 and 2)."""
 
     def __init__(
         self, observation_shape: tuple[int, ...], outputs: int, spec: NetworkSpec, dropout: float, rng: torch.Generator
     ) -> None:
         channels, rows, columns = observation_shape
         layers: list[nn.Module] = []
-        for width in spec.channels:
-            layers += [
-                nn.Conv2d(channels, width, 3, padding="same"),
-                nn.ReLU(),
-                nn.Conv2d(width, width, 3, padding="valid"),
-                nn.MaxPool2d(2),
-                nn.ReLU(),  # same result after the pool, on a quarter of the entries
-                Dropout(dropout, rng),
-            ]
-            channels, rows, columns = width, (rows - 2) // 2, (columns - 2) // 2
-        layers += [
-            nn.Flatten(),
-            nn.Linear(channels * rows * columns, spec.hidden),
-            nn.ReLU(),
-            Dropout(dropout, rng),
-            nn.Linear(spec.hidden, outputs),
-        ]
+        for one in spec.convolutions:
+            layers.append(nn.Conv2d(channels, one.channels, one.kernel, one.stride, one.padding))
+            if one.pool:
+                layers += [nn.MaxPool2d(2), nn.ReLU(), Dropout(dropout, rng)]  # ReLU of a quarter of the entries
+            else:
+                layers.append(nn.ReLU())
+            channels, rows, columns = one.channels, _side(rows, one), _side(columns, one)
+        hidden = nn.Linear(channels * rows * columns, spec.hidden)
+        layers += [nn.Flatten(), hidden, nn.ReLU(), Dropout(dropout, rng), nn.Linear(spec.hidden, outputs)]
         super().__init__(*layers)
         _initialize(layers, rng)
+        if spec.hidden_std is not None:
+            nn.init.normal_(hidden.weight, std=spec.hidden_std, generator=rng)
         self.to(memory_format=torch.channels_last)  # type: ignore[call-overload]  # torch's stub lacks this form
+
+
+def _side(pixels: int, one: Convolution) -> int:
+    """Return the side of a picture after a convolution."""
+    after = pixels if one.padding == "same" else (pixels - one.kernel) // one.stride + 1
+    return after // 2 if one.pool else after
 
 
 class DenseNet(nn.Sequential):

@@ -6,6 +6,7 @@ from typing import Any, get_type_hints
 
 from pydantic import TypeAdapter, ValidationError
 
+from waypost_learner.presets import montezuma
 from waypost_learner.presets.base import Preset, groups_by_value, value_of
 from waypost_learner.presets.lean import LEAN
 from waypost_learner.presets.paper import PAPER
@@ -14,10 +15,17 @@ Changes = dict[str, "str | Changes"]
 """New values as JSON texts, by name; values of a group are nested."""
 
 PRESETS = {"lean": LEAN, "paper": PAPER}
+PRESETS_OF = {("montezuma", "lean"): montezuma.LEAN, ("montezuma", "paper"): montezuma.PAPER}
+"""The presets of single domains, by domain and name, where they differ from `PRESETS`."""
 
 
-def find_preset(name: str, values: str | None = None) -> Preset:
+def find_preset(name: str, values: str | None = None, domain: str | None = None) -> Preset:
     """Return a preset in which `values`, such as "relabeling=false train_hi.batch=32", replace its own values.
+
+    Args:
+        name: the preset's name.
+        values: the values to replace; none if None.
+        domain: the name of the domain, which may have its own preset of this name.
 
     Raises:
         ValueError: no preset or value has this name (the message lists the names), a text is no value of its type, or
@@ -25,7 +33,7 @@ def find_preset(name: str, values: str | None = None) -> Preset:
     """
     if name not in PRESETS:
         raise ValueError(f"there is no preset {name!r}; the presets are: {', '.join(sorted(PRESETS))}")
-    preset = PRESETS[name]
+    preset = PRESETS_OF.get((domain or "", name), PRESETS[name])
     groups = groups_by_value(preset)
     new: dict[str, Any] = {}
     for value, text in parse_values(values).items():

@@ -6,7 +6,7 @@ docs/lean.md says what each value saves.
 from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.dqn import DqnSpec
 from waypost_learner.policies.imitation import TrainSpec
-from waypost_learner.policies.networks import NetworkSpec
+from waypost_learner.policies.networks import NetworkSpec, blocks
 from waypost_learner.presets.base import Preset, Training
 from waypost_learner.rollout.rollout import RolloutSpec, SelectionSpec
 
@@ -18,7 +18,7 @@ LEAN = Preset(
     warm_start=3,
     rollouts=RolloutSpec(SelectionSpec(temperature=0.1, termination_threshold=0.5), repeat_penalty=3.0),
     training=Training(
-        network=NetworkSpec(channels=(16, 32), hidden=128),  # of flat policies, which do not plan
+        network=NetworkSpec(blocks(16, 32), hidden=128),  # of flat policies, which do not plan
         train_hi=TrainSpec(5e-3, 64, least=_ROWS, most=_ROWS, idle=_IDLE_HI, dropout=0.0, averaging=0.995, bf16=False),
         train_lo=TrainSpec(
             1e-2, 64, least=_ROWS, most=_ROWS, idle=_IDLE_LO, dropout=0.0, weight_decay=0.1, averaging=0.995, bf16=False

@@ -2,7 +2,7 @@
 
 from waypost_learner.policies.dqn import DqnSpec
 from waypost_learner.policies.imitation import TrainSpec
-from waypost_learner.policies.networks import NetworkSpec
+from waypost_learner.policies.networks import NetworkSpec, blocks
 from waypost_learner.presets.base import Preset, Training
 from waypost_learner.rollout.rollout import RolloutSpec, SelectionSpec
 
@@ -11,7 +11,7 @@ PAPER = Preset(
     warm_start=200,
     rollouts=RolloutSpec(SelectionSpec(temperature=0.1, termination_threshold=0.9), h_hi=14),
     training=Training(
-        network=NetworkSpec(channels=(32, 64), hidden=256),
+        network=NetworkSpec(blocks(32, 64), hidden=256),
         train_hi=TrainSpec(passes=4, least=1024, most=6144, dropout=0.5, every_episode=True),
         train_lo=TrainSpec(passes=1, least=1024, most=1024, dropout=0.5),
         train_flat=TrainSpec(passes=1, least=1024, most=6144, dropout=0.5, every_episode=True),

@@ -52,6 +52,7 @@ class RolloutSpec:
 
     choosing: SelectionSpec
     h_hi: int | None = None  # the most subgoals in an episode; the domain's horizon if None
+    h_lo: int | None = None  # the most actions in a segment; the domain's horizon if None
     repeat_penalty: float = 0.0  # subtracted from a subgoal's logit for each earlier choice of it in the same place
 
 
@@ -67,6 +68,7 @@ class Behavior:
     choosing: SelectionSpec
     rng: np.random.Generator
     h_hi: int  # the most subgoals in an episode
+    h_lo: int  # the most actions in a segment
     epsilons: Mapping[PolicyKey, float] = field(default_factory=dict)  # the policies that choose epsilon-greedily
     terminations_given: bool = False  # whether the domain gives terminal(s; g) (Algorithm 3), instead of beta_g
     repeat_penalty: float = 0.0  # subtracted from a subgoal's logit for each earlier choice of it in the same place
@@ -111,7 +113,7 @@ def execute_subgoal(
     """
     key, states, actions, rewards = pi(subgoal), [state], list[int](), list[float]()
     terminated, outcome = False, None
-    while not terminated and not simulator.ended and len(actions) < simulator.domain.horizons.lo:
+    while not terminated and not simulator.ended and len(actions) < behavior.h_lo:
         logits, termination = yield Consult(key, states[-1])
         if not behavior.terminations_given and actions and termination > behavior.choosing.termination_threshold:
             terminated = True
@@ -121,7 +123,7 @@ def execute_subgoal(
         rewards.append(simulator.reward)
         if behavior.terminations_given:
             outcome = simulator.outcome(state, subgoal)
-            if outcome is None and len(actions) == simulator.domain.horizons.lo:
+            if outcome is None and len(actions) == behavior.h_lo:
                 outcome = "failed"  # otherwise a subpolicy could go back and forth without a failure
             terminated = outcome is not None
     return Segment(subgoal, tuple(states), tuple(actions), terminated, tuple(rewards), outcome, simulator.final)

@@ -57,9 +57,9 @@ def build_learner(config: TrainConfig, threads: int | None) -> Learner:
         ValueError: a name does not exist, or the preset's values contradict each other.
     """
     levels = find_algorithm(config.algorithm).levels
-    preset = find_preset(config.preset, config.values)
+    domain = find_domain(config.domain)
+    preset = find_preset(config.preset, config.values, domain.name)
     if config.warm_start is not None:
         preset = preset.with_values(warm_start=config.warm_start)
-    domain = find_domain(config.domain)
     start = None if config.head_start is None else head_start(domain, config.head_start)
     return Learner(domain, preset, config.seed, levels, threads, start)

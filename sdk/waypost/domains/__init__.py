@@ -4,6 +4,7 @@ from waypost.domains.contract import Domain, Horizons, InstanceSets
 from waypost.domains.failures import DomainFailed
 from waypost.domains.find import find_domain, installed, place_of
 from waypost.domains.parts import (
+    Computed,
     Ending,
     Grid,
     Oracle,
@@ -32,6 +33,7 @@ from waypost.domains.parts import (
 )
 
 __all__ = [
+    "Computed",
     "Domain",
     "DomainFailed",
     "Ending",

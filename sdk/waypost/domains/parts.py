@@ -6,6 +6,7 @@ part that the domain does not provide, `waypost train` says so and the run's con
 
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal, Protocol, get_args, runtime_checkable
 
 import gymnasium
@@ -58,6 +59,19 @@ class Reopened(Protocol):
 
     def instance_from(self, view: Any) -> Any:
         """Return the instance that `instance_view` showed as `view`."""
+
+
+@runtime_checkable
+class Computed(Protocol):
+    """A domain whose oracle looks up data that was computed once (`waypost domain build`)."""
+
+    def build(self, file: Path, progress: Callable[[str, int, int], None]) -> None:
+        """Compute the data and write it to a file.
+
+        Args:
+            file: the file to write.
+            progress: to be called with what is being computed, how much of it is done, and how much there is.
+        """
 
 
 # --- what people see

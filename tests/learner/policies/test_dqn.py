@@ -8,10 +8,10 @@ import pytest
 import torch
 
 from waypost_learner.policies.dqn import DqnSpec, QFunction
-from waypost_learner.policies.networks import NetworkSpec
+from waypost_learner.policies.networks import NetworkSpec, blocks
 from waypost_learner.rollout.experience import Transition
 
-NETWORK = NetworkSpec(channels=(4,), hidden=32)
+NETWORK = NetworkSpec(blocks(4), hidden=32)
 
 
 def one_hot(place: int, size: int = 5) -> np.ndarray[Any, np.dtype[np.float32]]:

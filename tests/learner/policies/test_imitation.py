@@ -14,12 +14,12 @@ from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.policies.datasets import UNLABELED, Dataset, Row
 from waypost_learner.policies.imitation import Policy, TrainSpec
 from waypost_learner.policies.labels import Labels, LoLabels
-from waypost_learner.policies.networks import NetworkSpec, build_network
+from waypost_learner.policies.networks import NetworkSpec, blocks, build_network
 from waypost_learner.rollout.policy_keys import META, pi
 from waypost_learner.runs.checkpoints import weights_hash
 
 SPEC = TrainSpec(learning_rate=5e-3, batch=16, passes=2, least=256, most=640, dropout=0.0)
-NETWORK = NetworkSpec(channels=(4,), hidden=16)
+NETWORK = NetworkSpec(blocks(4), hidden=16)
 
 
 def policy(seed: int = 0, terminates: bool = True, spec: TrainSpec = SPEC, shape: tuple[int, ...] = (2,)) -> Policy:

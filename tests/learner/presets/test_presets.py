@@ -20,10 +20,10 @@ def test_the_order_of_other_values_does_not_matter() -> None:
 
 
 def test_other_values_stand_in_the_place_of_the_presets() -> None:
-    changed = find_preset("paper", "h_hi=null train_hi.batch=64 network.channels=[8,8] train_hi.dropout=0")
+    changed = find_preset("paper", "h_hi=null train_hi.batch=64 network.hidden=64 train_hi.dropout=0")
     training, rollouts = PAPER.training, PAPER.rollouts
     train_hi = replace(training.train_hi, batch=64, dropout=0)
-    training = replace(training, train_hi=train_hi, network=replace(training.network, channels=(8, 8)))
+    training = replace(training, train_hi=train_hi, network=replace(training.network, hidden=64))
     assert changed == replace(PAPER, rollouts=replace(rollouts, h_hi=None), training=training)
     assert changed == PAPER.with_values(h_hi=None, train_hi=train_hi, network=training.network)
 
@@ -72,7 +72,7 @@ def test_without_views_nothing_is_planned() -> None:
         ("relabeling=1", r"'1' is no value for 'relabeling'"),
         ("warm_start=2.5", r"'2.5' is no value for 'warm_start'"),
         ("warm_start=null", r"'null' is no value for 'warm_start'"),
-        ("network.channels=[8,true]", r"is no value for 'channels'"),
+        ("network.hidden=true", r"is no value for 'hidden'"),
         ("train_hi=3", r"'train_hi' is a group of values"),
         ("warm_start.batch=3", r"'warm_start' is no group of values"),
         ("train_hi=3 train_hi.batch=3", r"'train_hi' is given twice"),

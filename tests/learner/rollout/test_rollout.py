@@ -31,6 +31,8 @@ from waypost_learner.rollout.rollout import (
 from waypost_learner.rollout.simulator import Simulator
 from waypost_learner.rollout.streams import TEST, TRAIN
 
+H_LO = CorridorDomain.horizons.lo
+
 WEST, EAST, TARGET = range(3)
 
 
@@ -60,13 +62,13 @@ def corridor_policies(beta: float | Callable[[np.ndarray], float]) -> Mapping[Po
 
 def corridor_rollout(instance: Corridor, choosing: SelectionSpec = GREEDY, seed: int = 0, h_hi: int = 30) -> Rollout:
     """A rollout in a corridor."""
-    behavior = Behavior(choosing, np.random.default_rng(seed), h_hi)
+    behavior = Behavior(choosing, np.random.default_rng(seed), h_hi, H_LO)
     return hierarchical_rollout(Simulator(CorridorDomain()), instance, behavior)
 
 
 def rolled_out(instance: Corridor, beta: float | Callable[[np.ndarray], float]) -> Trajectory:
     rollout = hierarchical_rollout(
-        Simulator(CorridorDomain()), instance, Behavior(GREEDY, np.random.default_rng(0), h_hi=30)
+        Simulator(CorridorDomain()), instance, Behavior(GREEDY, np.random.default_rng(0), h_hi=30, h_lo=H_LO)
     )
     return run(rollout, corridor_policies(beta))
 
@@ -201,7 +203,7 @@ def test_choices_are_drawn_from_the_softmax_at_the_temperature() -> None:
 
 
 def test_with_given_terminations_a_subgoal_ends_where_the_domain_says_and_fails_with_its_horizon() -> None:
-    behavior = Behavior(GREEDY, np.random.default_rng(0), h_hi=2, terminations_given=True)
+    behavior = Behavior(GREEDY, np.random.default_rng(0), h_hi=2, h_lo=H_LO, terminations_given=True)
     sigma = run(
         hierarchical_rollout(Simulator(CorridorDomain()), Corridor(1, 12), behavior),
         corridor_policies(beta=1.0),  # which would end every segment at once
@@ -221,6 +223,6 @@ def test_a_subgoal_that_was_chosen_in_the_same_place_before_is_less_likely(place
     logits = np.array([[1.0, 0.8, 0.1]], np.float32)  # west, east, target
     policies: Any = {META: lambda _: Outputs(logits, np.zeros(1, np.float32))}
     policies |= {pi(g): lambda _: Outputs(np.zeros((1, 2), np.float32), np.ones(1, np.float32)) for g in range(3)}
-    behavior = Behavior(GREEDY, np.random.default_rng(0), h_hi=5, repeat_penalty=0.5, place=place)
+    behavior = Behavior(GREEDY, np.random.default_rng(0), h_hi=5, h_lo=H_LO, repeat_penalty=0.5, place=place)
     sigma = run(hierarchical_rollout(Simulator(domain), Corridor(11, 0), behavior), policies)
     assert [segment.subgoal for segment in sigma] == chosen

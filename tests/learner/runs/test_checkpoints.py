@@ -16,7 +16,7 @@ from waypost_learner.domains.corridor import CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.policies.datasets import Row
 from waypost_learner.policies.labels import Labels
-from waypost_learner.policies.networks import NetworkSpec
+from waypost_learner.policies.networks import NetworkSpec, blocks
 from waypost_learner.rollout.policy_keys import META, pi
 from waypost_learner.runs import checkpoints
 from waypost_learner.runs.checkpoints import Header, weights_hash
@@ -156,7 +156,7 @@ def test_a_folder_is_refused_with_a_sentence(tmp_path: Path) -> None:
 
 def test_a_checkpoint_of_other_networks_is_refused_with_a_sentence(path: Path) -> None:
     checkpoints.write(path, learner(), HEADER, weights_only=True)
-    larger = TINY.with_values(network=NetworkSpec((4,), 99))
+    larger = TINY.with_values(network=NetworkSpec(blocks(4), 99))
     with pytest.raises(ValueError, match="does not fit"):
         checkpoints.load(path, Learner(CorridorDomain(), larger, 0, threads=1))
 
