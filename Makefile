@@ -93,7 +93,7 @@ $(VENV)/.base: pyproject.toml $(VENV)/.made
 
 $(VENV)/.learner: pyproject.toml $(VENV)/.made
 	@echo "Installing the Python packages. PyTorch is large, so the first time takes a minute or more."
-	@$(PIP) install -e '.[learner]'
+	@$(PIP) install -e '.[learner,atari]'
 	@touch $(VENV)/.base $@
 
 $(VENV)/.dev: pyproject.toml $(VENV)/.made

@@ -190,13 +190,18 @@ def demo(
         "waypost-demo.db"
     ),
     episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 300,
-    instances: Annotated[str, typer.Option(help="The mazes: random or corners.")] = "corners",
+    domain: Annotated[str, typer.Option(help="The domain that the queries are about.")] = "maze",
+    instances: Annotated[
+        str | None, typer.Option(help="Instances: a name or a file.", show_default="corners for the maze, else random")
+    ] = None,
 ) -> None:
     """Run a server, a learner and a bot on this machine, and print a link that logs you in."""
     with learner_errors():
+        from waypost.domains import find_domain
         from waypost_learner.demo import run_demo
 
-        run_demo(port, database, episodes, instances)
+        find_domain(domain)
+        run_demo(port, database, episodes, domain, instances or ("corners" if domain == "maze" else "random"))
 
 
 @app.command()

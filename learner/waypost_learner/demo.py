@@ -31,13 +31,14 @@ LINK_SECONDS = 86_400.0  # for which the login link is valid
 PATIENCE_SECONDS = 120.0  # after which the link is printed even if the learner has asked nothing yet
 
 
-def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
+def run_demo(port: int, database: Path, episodes: int, domain: str, instances: str) -> None:
     """Serve until interrupted, with a learner that asks queries and a bot that answers what people leave.
 
     Args:
         port: the port to serve on; 0 takes a free port.
         database: the SQLite file; it is created if it does not exist.
         episodes: the number of episodes of the learner's run.
+        domain: the domain of the learner's run; it has an oracle.
         instances: the name of the run's instances.
 
     Raises:
@@ -64,13 +65,14 @@ def run_demo(port: int, database: Path, episodes: int, instances: str) -> None:
             return process
 
         typer.echo(f"Waypost is at {served.url}; answers are kept in {database}.")
-        start("oracle-bot", "annotator", "oracle", "--defer", str(DEFER_SECONDS), "--seconds", str(THINKING_SECONDS))
+        pace = ("--defer", str(DEFER_SECONDS), "--seconds", str(THINKING_SECONDS))
+        start("oracle-bot", "annotator", "oracle", "--domain", domain, *pace)
         train = ("train", "hg-dagger", "--expert", "queue", "--name", "demo")
-        values = ("--instances", instances, "--episodes", str(episodes))
+        values = ("--domain", domain, "--instances", instances, "--episodes", str(episodes))
         checkpoints = ("--checkpoints", str(database.with_name(f"{database.name}.checkpoints")))
         learner = start("demo-learner", "learner", *train, *values, *checkpoints)
         try:
-            typer.echo("First a bot demonstrates a few mazes to a learner; then the learner asks queries.")
+            typer.echo("First a bot demonstrates a few episodes to a learner; then the learner asks queries.")
             wait_for_queries(served.db, learner)
             typer.echo("Answer with the keyboard; the bot answers the queries that you leave.")
             typer.echo(

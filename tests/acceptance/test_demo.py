@@ -14,10 +14,15 @@ from tests.acceptance.processes import WAYPOST
 PATIENCE_MS = 60_000
 
 
+@pytest.fixture(params=["maze", "montezuma"])
+def domain(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
 @pytest.fixture
-def demo(tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
+def demo(tmp_path: Path, domain: str) -> Iterator[subprocess.Popen[str]]:
     process = subprocess.Popen(
-        [*WAYPOST, "demo", "--port", "0", "--database", str(tmp_path / "demo.db")],
+        [*WAYPOST, "demo", "--domain", domain, "--port", "0", "--database", str(tmp_path / "demo.db")],
         stdout=subprocess.PIPE,
         text=True,
         start_new_session=True,
@@ -38,12 +43,14 @@ def is_alive(group: int) -> bool:
 
 
 def test_the_link_opens_on_something_to_judge_and_nothing_is_left_behind(
-    demo: subprocess.Popen[str], page: Page
+    demo: subprocess.Popen[str], domain: str, page: Page
 ) -> None:
     assert demo.stdout is not None
     (link,) = next(found for line in demo.stdout if (found := re.findall(r"once: (http\S+)", line)))
     page.goto(link)
     expect(page.get_by_text(re.compile("^(Inspect|Label)_")).first).to_be_visible(timeout=PATIENCE_MS)
+    if domain == "montezuma":
+        expect(page.locator("img.shown")).to_be_visible()  # a picture of the game
     page.goto("about:blank")
     demo.send_signal(signal.SIGTERM)
     assert demo.wait(timeout=30) == 0

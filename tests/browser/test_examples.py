@@ -1,4 +1,4 @@
-"""The domains in `examples` in the page: one query of each kind about each is answered with the keyboard alone."""
+"""Domains with pictures or text in the page: one query of each kind about each is answered with the keyboard alone."""
 
 import re
 from typing import Any
@@ -14,10 +14,12 @@ from tests.examples.page import Asked, asked, wait_for
 from waypost_dialogue import flight_dialogue
 
 from waypost.domains import find_domain
+from waypost_learner.domains.montezuma.env import Instance
 from waypost_server.serving import Served
 
 SIZES = {"desktop": WIDE, "tablet": {"width": 768, "height": 1024}}
 SEED = 4
+INSTANCES: dict[str, Any] = {**dict.fromkeys(DOMAINS, SEED), "montezuma": Instance(noops=SEED)}
 
 
 def expect_picture(page: Page, one: Asked) -> None:
@@ -50,13 +52,13 @@ def expect_turns(page: Page, state: Any) -> None:
 
 
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("place", DOMAINS)
+@pytest.mark.parametrize("place", INSTANCES)
 def test_one_query_of_each_kind_is_answered_with_the_keyboard_alone(
     open_page: Open, learner: Learner, served: Served, place: str, size: str
 ) -> None:
     domain = find_domain(place)
     expect_state = expect_conversation if domain is flight_dialogue else expect_picture
-    with asked(served, domain, SEED) as queries:
+    with asked(served, domain, INSTANCES[place]) as queries:
         page = open_page(f"/work?run={queries[0].run}", size=SIZES[size])
         for one in queries:
             wait_for(page, one)

@@ -21,7 +21,7 @@ QUICK = " ".join(f"train_{level}.{value}" for level in ("hi", "lo") for value in
 
 def queries_of_every_kind(domain: Domain, instance: Any) -> list[Query]:
     """Queries of an untrained learner about an instance."""
-    learner = Learner(domain, find_preset("lean"), seed=0, threads=1)
+    learner = Learner(domain, find_preset("lean", domain=domain.name), seed=0, threads=1)
     s = learner.start(instance, 0)
     sigma = learner.roll_out(s)
     lo = [query(sigma[0]) for query in (InspectLo, LabelLo)]

@@ -12,7 +12,7 @@ from waypost_learner.presets.base import value_of
 from waypost_learner.runs.config import TrainConfig
 
 _SWITCHES = frozenset(
-    {"h_hi", "planning", "relabeling", "repeat_penalty", "symmetries", "tied", "views", "monitoring.share"}
+    {"h_hi", "h_lo", "planning", "relabeling", "repeat_penalty", "symmetries", "tied", "views", "monitoring.share"}
 )
 """Values that may be set to false, 0 or null even if they have no effect."""
 
@@ -38,6 +38,7 @@ def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str
     checks = {
         "warm_start": (algorithm.interactive, f"{name} has no warm start"),
         "h_hi": (not levels.flat, f"{name} has no subgoals"),
+        "h_lo": (not levels.flat, f"{name} has no subgoals"),
         "repeat_penalty": (
             not levels.flat and isinstance(domain, Placed),
             f"{name} has no subgoals, or the domain {domain.name!r} declares no places",

@@ -1,6 +1,8 @@
 """The first room of Montezuma's Revenge: the game, the landmarks, and the expert that was computed for it."""
 
 import json
+import subprocess
+import sys
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -10,9 +12,11 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.learner.kit import store
 from typer.testing import CliRunner
 
 from waypost.domains.conformance import check_domain
+from waypost_learner.algorithms import ALGORITHMS
 from waypost_learner.cli import app
 from waypost_learner.domains.montezuma import table
 from waypost_learner.domains.montezuma.domain import MontezumaDomain
@@ -22,6 +26,8 @@ from waypost_learner.domains.montezuma.game import ACTIONS, Game
 from waypost_learner.domains.montezuma.landmarks import DOOR, KEY, STAIR
 from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.rollout.simulator import Simulator
+from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.training import train
 
 domain = MontezumaDomain()
 oracle = domain.oracle
@@ -299,6 +305,36 @@ def test_almost_every_state_of_random_play_is_in_the_table() -> None:
         seen, missing = seen + len(nodes), missing + sum(node not in known for node in nodes)
     assert seen > 1_500
     assert missing <= 0.003 * seen
+
+
+# --- learning and commands
+
+
+QUICK = " ".join(f"train_{level}.{value}" for level in ("hi", "lo", "flat") for value in ("least=64", "most=64"))
+
+
+@pytest.mark.parametrize("algorithm", ALGORITHMS)
+def test_every_algorithm_trains_on_it(algorithm: str, tmp_path: Path) -> None:
+    levels = ALGORITHMS[algorithm].levels
+    wanted = [one for one in QUICK.split() if one.startswith("train_flat") == levels.flat and not levels.q_lo]
+    warm_start = 1 if ALGORITHMS[algorithm].interactive else None
+    config = TrainConfig(
+        algorithm, domain="montezuma", episodes=2, warm_start=warm_start, values=" ".join(wanted) or None
+    )
+    with store(tmp_path / "runs") as (connection, options):
+        summary = train(config, connection, options)
+    assert summary["episodes"] == 2
+    costs = summary["cost"]["by_kind"]
+    assert (costs["hier_demo"] > 130) == (algorithm in ("h-bc", "flat-bc") or warm_start == 1)
+
+
+def test_without_the_emulator_one_sentence_says_what_to_install() -> None:
+    without = "import sys; sys.modules['ale_py'] = None; from waypost_learner.cli import main; main()"
+    done = subprocess.run(
+        [sys.executable, "-c", without, "train", "h-bc", "--domain", "montezuma"], capture_output=True, text=True
+    )
+    assert done.returncode == 2
+    assert done.stderr == "This needs the package ale_py: install it with `pip install 'waypost[atari]'`.\n"
 
 
 def test_the_command_says_that_a_domain_has_nothing_to_compute(tmp_path: Path) -> None:
