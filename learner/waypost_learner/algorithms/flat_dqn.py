@@ -15,6 +15,6 @@ def flat_dqn(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     """Run one episode, and learn from all of its transitions."""
     labels = Labels()
     (tau,) = learner.roll_out(s)
-    labels.append_experience(FLAT, experience.of_actions(tau))
+    labels.append_experience(FLAT, experience.of_actions(tau, learner.preset.training.dqn.returns))
     yield from ()  # no queries
     return labels

@@ -21,7 +21,7 @@ def h_dqn(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     sigma = learner.roll_out(s)
     for segment in sigma:
         assert segment.subgoal is not None
-        labels.append_experience(pi(segment.subgoal), experience.of_subgoal(segment, dqn.pseudo))
+        labels.append_experience(pi(segment.subgoal), experience.of_subgoal(segment, dqn.pseudo, dqn.returns))
     labels.append_experience(META, experience.of_subgoals(sigma, dqn.discount))
     yield from ()  # no queries
     return labels

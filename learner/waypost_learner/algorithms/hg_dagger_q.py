@@ -14,7 +14,7 @@ from waypost_learner.rollout.simulator import Start
 def hg_dagger_q(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     """Run one episode, lines 5-22. `Learner.learn` does Train (line 23)."""
     labels = Labels()
-    pseudo = learner.preset.training.dqn.pseudo
+    dqn = learner.preset.training.dqn
     sigma = learner.roll_out(s)  # lines 5-15
     good = sigma
     if not (yield InspectFull(sigma)):  # line 17
@@ -24,5 +24,5 @@ def hg_dagger_q(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
         labels.append_hi(sigma, d_star)  # line 21
     for segment in good:  # lines 20 and 22
         assert segment.subgoal is not None
-        labels.append_experience(pi(segment.subgoal), experience.of_subgoal(segment, pseudo))
+        labels.append_experience(pi(segment.subgoal), experience.of_subgoal(segment, dqn.pseudo, dqn.returns))
     return labels

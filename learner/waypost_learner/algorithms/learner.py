@@ -17,11 +17,9 @@ from waypost_learner.policies.imitation import Policy
 from waypost_learner.policies.labels import (
     Labels,
     Rows,
-    Transitions,
     rows_of,
+    transformed_experience,
     transformed_rows,
-    transformed_transitions,
-    transitions_of,
 )
 from waypost_learner.policies.levels import HIERARCHY, Levels
 from waypost_learner.policies.views import policy_view
@@ -150,7 +148,7 @@ class Learner:
         relabeling = self.domain if isinstance(self.domain, Relabeling | Retracing) else None
         rows = rows_of(labels, relabeling if use.relabeling else None)
         self._append_rows(rows, symmetries_of(self.domain) if use.symmetries else ())
-        self._append_transitions(transitions_of(labels), symmetries_of(self.domain) if dqn.symmetries else ())
+        self._append_experience(labels, symmetries_of(self.domain) if dqn.symmetries else ())
         self.due = [
             key
             for key, policy in self.imitators.items()
@@ -174,10 +172,10 @@ class Learner:
                     observe = self.views[key].view.observe
                     self.data[key].append(replace(row, observation=observe(row.observation)) for row in found)
 
-    def _append_transitions(self, transitions: Transitions, symmetries: Sequence[Symmetry]) -> None:
-        """Append transitions to the replay buffers, then the same transitions transformed by each symmetry."""
+    def _append_experience(self, labels: Labels, symmetries: Sequence[Symmetry]) -> None:
+        """Append experience to the replay buffers, then the same experience transformed by each symmetry."""
         for each in (None, *symmetries):
-            for key, found in (transitions if each is None else transformed_transitions(transitions, each)).items():
+            for given in labels.experience:
+                key, experience = given if each is None else transformed_experience(*given, each)
                 if key in self.q:
-                    observe = self.views[key].view.observe
-                    self.q[key].replay.add(one.observed(observe) for one in found)
+                    self.q[key].replay.add(experience.observed(self.views[key].view.observe))

@@ -11,7 +11,7 @@ from waypost.trajectory import Observation
 from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision, to_device
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec, build_network
 from waypost_learner.policies.replay import Replay
-from waypost_learner.rollout.experience import PseudoReward
+from waypost_learner.rollout.experience import PseudoReward, Returns
 from waypost_learner.rollout.rollout import Outputs
 
 
@@ -23,6 +23,7 @@ class DqnSpec:
     batch: int = 64  # transitions
     update_every: int = 4  # steps under this Q-function
     discount: float = 0.9  # gamma
+    ahead: int = 1  # steps whose rewards are summed up before the value of the state after them (n-step returns)
     target_every: int = 100  # updates
     capacity: int = 100_000  # transitions
     least: int = 200  # transitions in the buffer before the first update
@@ -34,6 +35,11 @@ class DqnSpec:
     pseudo: PseudoReward = field(default_factory=PseudoReward)
     symmetries: bool = True  # whether each transition is also learned in every symmetry of the domain
     bf16: bool = True  # mixed precision where the device supports bf16
+
+    @property
+    def returns(self) -> Returns:
+        """How rewards are summed up."""
+        return Returns(self.discount, self.ahead)
 
 
 class QFunction:
@@ -94,7 +100,7 @@ class QFunction:
         choice, reward, discount, weight = (
             batch[name].to(DEVICE) for name in ("choice", "reward", "discount", "weight")
         )
-        before, after = to_device(batch["before"].float()), to_device(batch["after"].float())
+        before, after = to_device(batch["before"]), to_device(batch["after"])
         with mixed_precision(self._bf16):
             with torch.no_grad():
                 best = self.network(after).argmax(1, keepdim=True)  # double Q-learning

@@ -1,20 +1,19 @@
 """Collect the labels and the experience of one episode, and turn them into rows and transitions for the data buffers.
 
-An algorithm appends to `Labels` in the order of the paper's lines. `rows_of` and `transitions_of` turn labels into
-buffer entries by policy; `transformed_rows` and `transformed_transitions` apply a symmetry of the domain to them.
+An algorithm appends to `Labels` in the order of the paper's lines. `rows_of` turns labels into rows by policy;
+`transformed_rows` and `transformed_experience` apply a symmetry of the domain.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from waypost.domains import Relabeling, Retracing, Symmetry
 from waypost.trajectory import Action, Segment, Subgoal, Trajectory
 from waypost_learner.policies.datasets import UNLABELED, Row
-from waypost_learner.rollout.experience import Transition
+from waypost_learner.rollout.experience import Experience
 from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 
 Rows = dict[PolicyKey, list[Row]]
-Transitions = dict[PolicyKey, list[Transition]]
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,7 @@ class Labels:
     lo: list[tuple[Segment, LoLabels]] = field(default_factory=list)
     demonstrations: list[Trajectory] = field(default_factory=list)  # their labels are in `hi` and `lo` too
     flat: list[tuple[Trajectory, tuple[Action, ...]]] = field(default_factory=list)
-    experience: list[tuple[PolicyKey, tuple[Transition, ...]]] = field(default_factory=list)
+    experience: list[tuple[PolicyKey, Experience]] = field(default_factory=list)
 
     def append_hi(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> None:
         """D_HI <- D_HI + {(s_h, g*_h)}."""
@@ -54,9 +53,9 @@ class Labels:
         """D <- D + {(s, a*)} over the full trajectory."""
         self.flat.append((trajectory, tuple(good_actions)))
 
-    def append_experience(self, key: PolicyKey, transitions: Iterable[Transition]) -> None:
+    def append_experience(self, key: PolicyKey, experience: Experience) -> None:
         """D_g <- D_g + tau_h (Algorithm 3, lines 20 and 22), or the same for another Q-function."""
-        self.experience.append((key, tuple(transitions)))
+        self.experience.append((key, experience))
 
 
 def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None) -> Rows:
@@ -85,14 +84,6 @@ def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None) ->
     return rows
 
 
-def transitions_of(labels: Labels) -> Transitions:
-    """Return the transitions that an episode adds to each Q-function's replay buffer."""
-    transitions: Transitions = {}
-    for key, found in labels.experience:
-        transitions.setdefault(key, []).extend(found)
-    return transitions
-
-
 def transformed_rows(rows: Mapping[PolicyKey, Sequence[Row]], symmetry: Symmetry) -> Rows:
     """Return the rows with observations, choices and policies transformed by a symmetry of the domain."""
 
@@ -103,13 +94,9 @@ def transformed_rows(rows: Mapping[PolicyKey, Sequence[Row]], symmetry: Symmetry
     return {_key(symmetry, key): [transformed(key, row) for row in found] for key, found in rows.items()}
 
 
-def transformed_transitions(transitions: Mapping[PolicyKey, Sequence[Transition]], symmetry: Symmetry) -> Transitions:
-    """Return the transitions with observations, choices and policies transformed by a symmetry of the domain."""
-
-    def transformed(key: PolicyKey, one: Transition) -> Transition:
-        return replace(one.observed(symmetry.observe), choice=_choices(symmetry, key)[one.choice])
-
-    return {_key(symmetry, key): [transformed(key, one) for one in found] for key, found in transitions.items()}
+def transformed_experience(key: PolicyKey, experience: Experience, symmetry: Symmetry) -> tuple[PolicyKey, Experience]:
+    """Return experience and its policy, transformed by a symmetry of the domain."""
+    return _key(symmetry, key), experience.observed(symmetry.observe).chosen(_choices(symmetry, key))
 
 
 def _extend(rows: Rows, segment: Segment, labels: LoLabels) -> None:

@@ -1,6 +1,6 @@
-"""Turn the segments of a rollout into transitions, from which Q-functions learn."""
+"""Turn the segments of a rollout into experience, from which Q-functions learn."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from waypost.trajectory import Observation, Segment, Trajectory
@@ -8,17 +8,32 @@ from waypost.trajectory import Observation, Segment, Trajectory
 
 @dataclass(frozen=True)
 class Transition:
-    """(s, choice, r, s~): the choice is an action, or a subgoal with all steps that carried it out."""
+    """(s, choice, r, s~): the choice is an action, or a subgoal with all steps that carried it out.
 
-    observation: Observation
+    States are numbers: their places among the observations of an `Experience`.
+    """
+
+    state: int
     choice: int
     reward: float  # the sum over its steps, discounted to the first step
-    next_observation: Observation
-    steps: int  # the number of steps of the choice; 0 if s~ is terminal
+    next_state: int
+    steps: int  # the number of steps from s to s~; 0 if s~ is terminal
 
-    def observed(self, observe: Callable[[Observation], Observation]) -> "Transition":
-        """Return the same transition with both observations mapped by `observe`."""
-        return replace(self, observation=observe(self.observation), next_observation=observe(self.next_observation))
+
+@dataclass(frozen=True)
+class Experience:
+    """The observations along a trajectory, and the transitions between them."""
+
+    observations: tuple[Observation, ...]
+    transitions: tuple[Transition, ...]
+
+    def observed(self, observe: Callable[[Observation], Observation]) -> "Experience":
+        """Return the same experience with each observation mapped by `observe`."""
+        return replace(self, observations=tuple(observe(one) for one in self.observations))
+
+    def chosen(self, choices: Sequence[int]) -> "Experience":
+        """Return the same experience with each choice replaced by `choices[choice]`."""
+        return replace(self, transitions=tuple(replace(one, choice=choices[one.choice]) for one in self.transitions))
 
 
 @dataclass(frozen=True)
@@ -30,41 +45,50 @@ class PseudoReward:
     step: float = -0.02  # -kappa
 
 
-def of_subgoal(segment: Segment, pseudo: PseudoReward) -> list[Transition]:
+@dataclass(frozen=True)
+class Returns:
+    """How rewards are summed up: over `ahead` steps, before the value of the state after them (n-step returns)."""
+
+    discount: float  # gamma
+    ahead: int = 1
+
+
+def of_subgoal(segment: Segment, pseudo: PseudoReward, returns: Returns) -> Experience:
     """Return the transitions (s, a, r~, s~) of a segment, for Q_g. The end of the subgoal or episode is terminal."""
-    transitions = []
-    for step, action in enumerate(segment.actions):
-        last = step == len(segment.actions) - 1
-        ends = last and (segment.outcome is not None or segment.final)
-        reward = getattr(pseudo, segment.outcome) if last and segment.outcome else pseudo.step
-        transitions.append(_transition(segment, step, action, reward, ends))
-    return transitions
+    rewards = [pseudo.step] * len(segment.actions)
+    if segment.outcome is not None:
+        rewards[-1] = getattr(pseudo, segment.outcome)
+    return _experience(segment, rewards, segment.outcome is not None or segment.final, returns)
 
 
-def of_actions(segment: Segment) -> list[Transition]:
+def of_actions(segment: Segment, returns: Returns) -> Experience:
     """Return the transitions (s, a, r, s') of a flat trajectory, for a flat Q-function."""
-    last = len(segment.actions) - 1
-    return [
-        _transition(segment, step, action, reward, segment.final and step == last)
-        for step, (action, reward) in enumerate(zip(segment.actions, segment.rewards, strict=True))
-    ]
+    return _experience(segment, segment.rewards, segment.final, returns)
 
 
-def of_subgoals(sigma: Trajectory, discount: float) -> list[Transition]:
+def of_subgoals(sigma: Trajectory, discount: float) -> Experience:
     """Return the transitions (s_h, g_h, R_h, s_{h+1}) of sigma, for a meta-controller's Q (Kulkarni et al. 2016)."""
-    return [
+    transitions = tuple(
         Transition(
-            segment.start.observation,
+            h,
             segment.subgoal,
             sum(discount**step * reward for step, reward in enumerate(segment.rewards)),
-            segment.states[-1].observation,
+            h + 1,
             0 if segment.final else len(segment.actions),
         )
-        for segment in sigma
+        for h, segment in enumerate(sigma)
         if segment.subgoal is not None
-    ]
+    )
+    states = [*(segment.start for segment in sigma), *(segment.states[-1] for segment in sigma[-1:])]
+    return Experience(tuple(state.observation for state in states), transitions)
 
 
-def _transition(segment: Segment, step: int, action: int, reward: float, ends: bool) -> Transition:
-    before, after = segment.states[step].observation, segment.states[step + 1].observation
-    return Transition(before, action, reward, after, 0 if ends else 1)
+def _experience(segment: Segment, rewards: Sequence[float], ends: bool, returns: Returns) -> Experience:
+    """Return a segment's experience. `ends` says whether its last state is terminal."""
+    length, transitions = len(segment.actions), list[Transition]()
+    for first, action in enumerate(segment.actions):
+        last = min(first + returns.ahead, length)
+        reward = sum(returns.discount**step * one for step, one in enumerate(rewards[first:last]))
+        steps = 0 if ends and last == length else last - first
+        transitions.append(Transition(first, action, reward, last, steps))
+    return Experience(tuple(state.observation for state in segment.states), tuple(transitions))

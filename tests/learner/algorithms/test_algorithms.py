@@ -1,5 +1,6 @@
 """The algorithms, driven by hand: what they ask, in which order, and what they learn from the answers."""
 
+from collections import Counter
 from collections.abc import Generator
 from dataclasses import replace
 from typing import Any
@@ -29,8 +30,8 @@ from waypost_learner.algorithms.queries import (
     LabelLo,
     Query,
 )
-from waypost_learner.policies.labels import Labels, LoLabels, rows_of, transitions_of
-from waypost_learner.rollout.policy_keys import FLAT, META, pi
+from waypost_learner.policies.labels import Labels, LoLabels, rows_of
+from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 from waypost_learner.rollout.simulator import Start
 
 NO_SIMULATOR: Any = None
@@ -268,6 +269,14 @@ def test_naive_hierarchical_dagger_labels_everything_and_inspects_nothing(
     assert rows_of(labels).keys() == {META, *(pi(one.subgoal) for one in sigma if one.subgoal is not None)}
 
 
+def learned_from(labels: Labels) -> Counter[PolicyKey]:
+    """How many transitions each Q-function learns from."""
+    learned: Counter[PolicyKey] = Counter()
+    for key, experience in labels.experience:
+        learned[key] += len(experience.transitions)
+    return learned
+
+
 @examples
 @given(st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), min_size=1, max_size=8), st.booleans())
 def test_the_hybrid_learns_to_act_only_from_segments_before_the_first_wrong_subgoal(
@@ -279,7 +288,7 @@ def test_the_hybrid_learns_to_act_only_from_segments_before_the_first_wrong_subg
     agreeing = 0
     while agreeing < len(sigma) and (passes or chosen_and_good[agreeing][0] == chosen_and_good[agreeing][1]):
         agreeing += 1
-    learned = {key: len(transitions) for key, transitions in transitions_of(labels).items()}
+    learned = learned_from(labels)
     assert learned == {key: 2 * sum(s.subgoal == key.subgoal for s in sigma[:agreeing]) for key in learned}
     assert sum(learned.values()) == 2 * agreeing
     assert expert.asked == ([InspectFull(sigma)] if passes else [InspectFull(sigma), LabelHi(sigma)])
@@ -290,10 +299,10 @@ def test_learning_by_reinforcement_alone_asks_nobody_and_learns_from_everything(
     expert = Expert((), True, [], [])
     sigma = (segment(1, n_actions=3), segment(0, n_actions=2))
     labels = carried_out(h_dqn(S, ScriptedLearner(sigma)), expert)  # type: ignore[arg-type]
-    assert {key: len(of) for key, of in transitions_of(labels).items()} == {pi(1): 3, pi(0): 2, META: 2}
+    assert learned_from(labels) == {pi(1): 3, pi(0): 2, META: 2}
     tau = (replace(flat_trajectory()[0], rewards=(0.0, 0.0, 1.0)),)
     labels = carried_out(flat_dqn(S, ScriptedLearner(tau)), expert)  # type: ignore[arg-type]
-    assert {key: len(of) for key, of in transitions_of(labels).items()} == {FLAT: 3}
+    assert learned_from(labels) == {FLAT: 3}
     assert expert.asked == []
 
 

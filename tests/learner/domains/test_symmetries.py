@@ -17,9 +17,9 @@ from waypost_learner.domains.maze.env import MazeEnv
 from waypost_learner.domains.maze.maze import Cell, Maze
 from waypost_learner.domains.maze.symmetries import symmetries
 from waypost_learner.policies.datasets import UNLABELED, Row
-from waypost_learner.policies.labels import Labels, transformed_rows, transformed_transitions
+from waypost_learner.policies.labels import Labels, transformed_experience, transformed_rows
 from waypost_learner.policies.levels import Levels
-from waypost_learner.rollout.experience import Transition
+from waypost_learner.rollout.experience import Experience, Transition
 from waypost_learner.rollout.policy_keys import META, pi
 
 oracle = MazeDomain().oracle
@@ -112,12 +112,13 @@ def test_experience_seen_through_a_symmetry_is_of_the_turned_subgoal_and_the_tur
     symmetry: Symmetry, subgoal: int, action: int
 ) -> None:
     before, after = (np.random.default_rng(n).random((3, 17, 17)).astype(np.float32) for n in range(2))
-    transitions = {pi(subgoal): [Transition(before, action, 0.5, after, 1)]}
-    ((key, (seen,)),) = transformed_transitions(transitions, symmetry).items()
+    given_one = Experience((before, after), (Transition(0, action, 0.5, 1, 1),))
+    key, experience = transformed_experience(pi(subgoal), given_one, symmetry)
+    (seen,) = experience.transitions
     assert (key.subgoal, seen.choice) == (symmetry.subgoals[subgoal], symmetry.actions[action])
     assert (seen.reward, seen.steps) == (0.5, 1)
-    assert (seen.observation == symmetry.observe(before)).all()
-    assert (seen.next_observation == symmetry.observe(after)).all()
+    assert (experience.observations[seen.state] == symmetry.observe(before)).all()
+    assert (experience.observations[seen.next_state] == symmetry.observe(after)).all()
 
 
 @pytest.mark.parametrize(("symmetric", "rows"), [(False, 1), (True, 8)])
@@ -128,6 +129,6 @@ def test_a_preset_decides_whether_q_functions_see_their_experience_through_the_s
     learner = Learner(MazeDomain(), preset, seed=0, levels=Levels(q_lo=True), threads=1)
     picture = np.zeros((3, 17, 17), np.float32)
     labels = Labels()
-    labels.append_experience(pi(0), [Transition(picture, 0, 0.0, picture, 1)])
+    labels.append_experience(pi(0), Experience((picture, picture), (Transition(0, 0, 0.0, 1, 1),)))
     learner.learn(labels)
     assert sum(len(q.replay) for q in learner.q.values()) == rows

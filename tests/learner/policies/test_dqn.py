@@ -9,7 +9,7 @@ import torch
 
 from waypost_learner.policies.dqn import DqnSpec, QFunction
 from waypost_learner.policies.networks import NetworkSpec, blocks
-from waypost_learner.rollout.experience import Transition
+from waypost_learner.rollout.experience import Experience, Transition
 
 NETWORK = NetworkSpec(blocks(4), hidden=32)
 
@@ -18,10 +18,11 @@ def one_hot(place: int, size: int = 5) -> np.ndarray[Any, np.dtype[np.float32]]:
     return np.eye(size, dtype=np.float32)[place]
 
 
-def chain() -> list[Transition]:
+def chain() -> Experience:
     """Five cells in a row: action 1 goes right and brings 1 at the end, action 0 ends the episode with nothing."""
-    right = [Transition(one_hot(i), 1, float(i == 3), one_hot(i + 1), 0 if i == 3 else 1) for i in range(4)]
-    return [*right, *(Transition(one_hot(i), 0, 0.0, one_hot(i), 0) for i in range(4))]
+    right = [Transition(i, 1, float(i == 3), i + 1, 0 if i == 3 else 1) for i in range(4)]
+    left = [Transition(i, 0, 0.0, i, 0) for i in range(4)]
+    return Experience(tuple(one_hot(i) for i in range(5)), (*right, *left))
 
 
 def learned(spec: DqnSpec, steps: int, seed: int = 0) -> QFunction:
@@ -63,7 +64,7 @@ def test_the_best_choice_is_chosen_by_one_network_and_valued_by_the_other() -> N
             torch.nn.init.zeros_(parameter)
         last = list(network.parameters())[-1]
         last.data.copy_(torch.tensor(bias))
-    q.replay.add([Transition(one_hot(0), 0, 0.0, one_hot(1), 1)])
+    q.replay.add(Experience((one_hot(0), one_hot(1)), (Transition(0, 0, 0.0, 1, 1),)))
     q.step()
     ((_, found),) = [q.replay.sample(1, torch.Generator().manual_seed(0))]
     assert found["priority"].item() == pytest.approx(0.9 * 3.0, abs=1e-3)  # the error: wanted 0.9 * 3, was 0

@@ -12,16 +12,18 @@ from tests.learner.kit import examples
 
 from waypost_learner.policies.dqn import DqnSpec
 from waypost_learner.policies.replay import Replay
-from waypost_learner.rollout.experience import Transition
+from waypost_learner.rollout.experience import Experience, Transition
 
 
 def one_hot(place: int, size: int = 5) -> np.ndarray[Any, np.dtype[np.float32]]:
     return np.eye(size, dtype=np.float32)[place]
 
 
-def transition(number: int) -> Transition:
-    """A transition that can be told by its reward."""
-    return Transition(one_hot(number % 5), number % 2, float(number), one_hot((number + 1) % 5), 1)
+def experience(*numbers: int) -> Experience:
+    """Transitions that can be told by their rewards."""
+    observations = [one_hot(place % 5) for number in numbers for place in (number, number + 1)]
+    transitions = [Transition(2 * n, number % 2, float(number), 2 * n + 1, 1) for n, number in enumerate(numbers)]
+    return Experience(tuple(observations), tuple(transitions))
 
 
 @examples
@@ -30,15 +32,51 @@ def test_replay_keeps_the_newest_up_to_its_capacity(capacity: int, n: int) -> No
     replay = Replay((5,), DqnSpec(capacity=capacity))
     expected: deque[float] = deque(maxlen=capacity)
     for number in range(n):
-        replay.add([transition(number)])
+        replay.add(experience(number))
         expected.append(float(number))
     assert len(replay) == len(expected)
     assert sorted(replay.tensors()["reward"].tolist()) == sorted(expected)
 
 
+def stacked(pictures: np.ndarray, depth: int = 4) -> Experience:
+    """A walk through pictures uint8[n, rows, columns], seen `depth` at a time, with returns of three steps."""
+    padded = np.concatenate([np.repeat(pictures[:1], depth - 1, axis=0), pictures])
+    observations = [padded[n : n + depth] for n in range(len(pictures))]
+    last = len(pictures) - 1
+    transitions = [Transition(n, n % 3, float(n), min(n + 3, last), min(3, last - n)) for n in range(last)]
+    return Experience(tuple(observations), tuple(transitions))
+
+
+@examples
+@given(st.integers(1, 60), st.lists(st.integers(2, 30), min_size=1, max_size=8), st.integers(0, 9))
+def test_stacked_pictures_come_back_as_they_were_and_each_is_stored_once(
+    capacity: int, lengths: list[int], seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    replay, wanted = Replay((4, 6, 6), DqnSpec(capacity=capacity)), deque[tuple[Any, Any, float]](maxlen=capacity)
+    for length in lengths:
+        walk = stacked(rng.integers(0, 256, (length, 6, 6), np.uint8))
+        replay.add(walk)
+        for one in walk.transitions:
+            wanted.append((walk.observations[one.state], walk.observations[one.next_state], one.reward))
+    fresh = Replay((4, 6, 6), DqnSpec(capacity=capacity))
+    fresh.load(replay.tensors())
+    for buffer in (replay, fresh):
+        _, found = buffer.sample(64, torch.Generator().manual_seed(seed))
+        for before, after, reward in zip(found["before"], found["after"], found["reward"], strict=True):
+            same = [one for one in wanted if one[2] == reward]
+            assert any(
+                np.array_equal(before.numpy(), b / np.float32(255))
+                and np.array_equal(after.numpy(), a / np.float32(255))
+                for b, a, _ in same
+            )
+    # One new picture for each state, and the pictures around the first and the last state of each walk.
+    assert len(replay.tensors()["sizes"]) <= len(wanted) + 7 * len(lengths) + 3
+
+
 def test_rows_are_drawn_in_proportion_to_their_priority_and_weighed_against_it() -> None:
     replay = Replay((5,), DqnSpec(alpha=0.5))
-    replay.add([transition(number) for number in range(3)])
+    replay.add(experience(0, 1, 2))
     replay.prioritize(torch.arange(3), torch.tensor([0.0, 4.0, 16.0]))  # to the power 0.5: about 0.01, 2 and 4
     rows, found = replay.sample(60_000, torch.Generator().manual_seed(0))
     shares = torch.bincount(rows, minlength=3) / len(rows)
@@ -50,7 +88,7 @@ def test_rows_are_drawn_in_proportion_to_their_priority_and_weighed_against_it()
 
 def test_a_new_transition_is_as_important_as_the_most_important_one() -> None:
     replay = Replay((5,), DqnSpec(alpha=1.0))
-    replay.add([transition(0), transition(1)])
+    replay.add(experience(0, 1))
     replay.prioritize(torch.tensor([0, 1]), torch.tensor([9.0, 0.5]))
-    replay.add([transition(2)])
+    replay.add(experience(2))
     assert replay.tensors()["priority"].tolist() == pytest.approx([9.0, 0.5, 9.0], abs=1e-3)
