@@ -17,6 +17,7 @@ from waypost_learner.algorithms.naive_h_dagger import naive_h_dagger
 from waypost_learner.algorithms.queries import Query
 from waypost_learner.policies.labels import Labels
 from waypost_learner.policies.levels import HIERARCHY, Levels
+from waypost_learner.presets.base import Preset
 from waypost_learner.rollout.simulator import Start
 
 Episode = Callable[[Start, Learner], Generator[Query, Any, Labels]]
@@ -30,12 +31,18 @@ class Algorithm:
     episode: Episode
     warm_start: Episode | None = None  # replaces `episode` in the first episodes; no warm start if None
     levels: Levels = HIERARCHY
-    monitored: bool = False  # whether episodes begin with Inspect_FULL and give no labels if they pass
+    monitored: bool = False  # whether episodes begin with Inspect_FULL, so that monitoring may skip them
 
     @property
     def interactive(self) -> bool:
         """Whether the expert labels the learner's own rollouts after a warm start of demonstrations."""
         return self.warm_start is not None
+
+    def demonstrations(self, preset: Preset) -> int:
+        """Return the number of episodes in the warm start."""
+        if self.warm_start is None:
+            return 0
+        return preset.demonstrations if self.levels.q_lo else preset.warm_start
 
 
 _FLAT = Levels(flat=True)
@@ -47,7 +54,7 @@ ALGORITHMS = {
     "naive-h-dagger": Algorithm(naive_h_dagger, warm_start=h_bc),
     "flat-bc": Algorithm(flat_bc, levels=_FLAT),
     "flat-dagger": Algorithm(flat_dagger, warm_start=flat_bc, levels=_FLAT, monitored=True),
-    "hg-dagger-q": Algorithm(hg_dagger_q, levels=Levels(q_lo=True)),
+    "hg-dagger-q": Algorithm(hg_dagger_q, warm_start=h_bc, levels=Levels(q_lo=True), monitored=True),
     "h-dqn": Algorithm(h_dqn, levels=Levels(q_hi=True, q_lo=True)),
     "flat-dqn": Algorithm(flat_dqn, levels=Levels(flat=True, q_lo=True)),
 }

@@ -25,7 +25,8 @@ from waypost_learner.policies.levels import HIERARCHY, Levels
 from waypost_learner.policies.views import policy_view
 from waypost_learner.presets.base import Preset
 from waypost_learner.rollout import streams
-from waypost_learner.rollout.policy_keys import META, PolicyKey
+from waypost_learner.rollout.experience import Experience, of_demonstration
+from waypost_learner.rollout.policy_keys import META, PolicyKey, pi
 from waypost_learner.rollout.rollout import Behavior, Rollout, flat_rollout, hierarchical_rollout, run, unique_place
 from waypost_learner.rollout.simulator import HeadStart, Simulator, Start
 
@@ -75,7 +76,8 @@ class Learner:
         return Policy(view.view.shape, self._n_choices(key), terminates, view.network, train, self._seed(key))
 
     def _q_function(self, key: PolicyKey) -> QFunction:
-        view, dqn = self.views[key], self.preset.training.dqn
+        view = self.views[key]
+        dqn = self.preset.training.dqn_for(None if key.subgoal is None else self.domain.subgoals[key.subgoal])
         return QFunction(view.view.shape, self._n_choices(key), view.network, dqn, self._seed(key))
 
     def _n_choices(self, key: PolicyKey) -> int:
@@ -144,11 +146,11 @@ class Learner:
         Train each policy that has new rows or that trains after every episode.
         """
         sizes = {key: len(data) for key, data in self.data.items()}
-        use, dqn = self.preset.use, self.preset.training.dqn
+        use = self.preset.use
         relabeling = self.domain if isinstance(self.domain, Relabeling | Retracing) else None
         rows = rows_of(labels, relabeling if use.relabeling else None)
         self._append_rows(rows, symmetries_of(self.domain) if use.symmetries else ())
-        self._append_experience(labels, symmetries_of(self.domain) if dqn.symmetries else ())
+        self._remember([*labels.experience, *self._demonstrated(labels)])
         self.due = [
             key
             for key, policy in self.imitators.items()
@@ -172,10 +174,23 @@ class Learner:
                     observe = self.views[key].view.observe
                     self.data[key].append(replace(row, observation=observe(row.observation)) for row in found)
 
-    def _append_experience(self, labels: Labels, symmetries: Sequence[Symmetry]) -> None:
+    def _demonstrated(self, labels: Labels) -> list[tuple[PolicyKey, Experience]]:
+        """Return the demonstrated segments as experience."""
+        dqn = self.preset.training.dqn
+        return [
+            (pi(segment.subgoal), of_demonstration(segment, dqn.pseudo, dqn.returns))
+            for demonstration in labels.demonstrations
+            for segment in demonstration
+            if segment.subgoal is not None
+        ]
+
+    def _remember(self, experience: Sequence[tuple[PolicyKey, Experience]]) -> None:
         """Append experience to the replay buffers, then the same experience transformed by each symmetry."""
-        for each in (None, *symmetries):
-            for given in labels.experience:
-                key, experience = given if each is None else transformed_experience(*given, each)
+        for key, one in experience:
+            if key in self.q:
+                self.q[key].attempt(one)
+        for each in (None, *(symmetries_of(self.domain) if self.preset.training.dqn.symmetries else ())):
+            for given in experience:
+                key, one = given if each is None else transformed_experience(*given, each)
                 if key in self.q:
-                    self.q[key].replay.add(experience.observed(self.views[key].view.observe))
+                    self.q[key].remember(one.observed(self.views[key].view.observe))

@@ -1,6 +1,14 @@
-"""Q-functions: double DQN (van Hasselt et al. 2016) with prioritized experience replay."""
+"""Q-functions: double DQN (van Hasselt et al. 2016) with prioritized experience replay.
 
+Q-functions of subgoals can have the paper's two additions for Montezuma's Revenge (section 6.2): they learn only from
+the first success on, and no longer when they succeed often. They can learn from demonstrations too (Hester et al.
+2018).
+"""
+
+from collections import deque
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 import torch
@@ -11,8 +19,10 @@ from waypost.trajectory import Observation
 from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision, to_device
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec, build_network
 from waypost_learner.policies.replay import Replay
-from waypost_learner.rollout.experience import PseudoReward, Returns
+from waypost_learner.rollout.experience import Experience, PseudoReward, Returns
 from waypost_learner.rollout.rollout import Outputs
+
+ATTEMPTS = 100  # at a subgoal, over which a success rate is taken
 
 
 @dataclass(frozen=True)
@@ -20,6 +30,7 @@ class DqnSpec:
     """The learning parameters of a Q-function."""
 
     learning_rate: float = 5e-4
+    optimizer: Literal["adam", "rmsprop"] = "adam"
     batch: int = 64  # transitions
     update_every: int = 4  # steps under this Q-function
     discount: float = 0.9  # gamma
@@ -33,6 +44,9 @@ class DqnSpec:
     # epsilon in training, by the number of steps under this Q-function; linear in between
     epsilon: tuple[tuple[int, float], ...] = ((0, 1.0), (2_000, 0.1), (12_000, 0.01))
     pseudo: PseudoReward = field(default_factory=PseudoReward)
+    from_success: bool = False  # whether experience is kept only from a subgoal's first success on
+    stop_above: float | None = None  # no updates above this success rate of the last 100 attempts; always if None
+    margin: float = 0.0  # by which a demonstrated choice should exceed the others; 0 ignores who chose
     symmetries: bool = True  # whether each transition is also learned in every symmetry of the domain
     bf16: bool = True  # mixed precision where the device supports bf16
 
@@ -67,9 +81,11 @@ class QFunction:
             build_network(observation_shape, n_choices, network, 0, self.rng).to(DEVICE) for _ in range(2)
         )
         self.target.load_state_dict(self.network.state_dict())
-        self.optimizer = torch.optim.Adam(self.network.parameters(), lr=spec.learning_rate, fused=True)
+        self.optimizer = _optimizer(self.network.parameters(), spec)
         self.replay = Replay(observation_shape, spec)
         self.steps = self.updates = 0
+        self.attempts: deque[bool] = deque(maxlen=ATTEMPTS)  # whether the last attempts reached the subgoal
+        self.succeeded = False  # whether any attempt did
         self._bf16 = spec.bf16 and has_bf16()
 
     @torch.inference_mode()
@@ -89,10 +105,30 @@ class QFunction:
         steps, values = zip(*self.spec.epsilon, strict=True)
         return float(np.interp(float(self.steps), steps, values))
 
+    @property
+    def mastered(self) -> bool:
+        """Whether the last 100 attempts succeeded so often that there are no more updates."""
+        if self.spec.stop_above is None or len(self.attempts) < ATTEMPTS:
+            return False
+        return sum(self.attempts) / ATTEMPTS > self.spec.stop_above
+
+    def attempt(self, experience: Experience) -> None:
+        """Count an attempt at the subgoal. A demonstration is no attempt, but it is a success."""
+        if experience.outcome is not None:
+            self.succeeded = self.succeeded or experience.outcome == "reached"
+            if not experience.demonstrated:
+                self.attempts.append(experience.outcome == "reached")
+
+    def remember(self, experience: Experience) -> None:
+        """Append experience to the replay buffer."""
+        if self.succeeded or not self.spec.from_success:
+            self.replay.add(experience)
+
     def step(self) -> None:
         """Count one step under this Q-function, and update it every `update_every` steps (Algorithm 3, line 11)."""
         self.steps += 1
-        if self.steps % self.spec.update_every == 0 and len(self.replay) >= self.spec.least:
+        due = self.steps % self.spec.update_every == 0 and len(self.replay) >= self.spec.least
+        if due and not self.mastered:
             self._update()
 
     def _update(self) -> None:
@@ -105,10 +141,16 @@ class QFunction:
             with torch.no_grad():
                 best = self.network(after).argmax(1, keepdim=True)  # double Q-learning
                 next_value = self.target(after).float().gather(1, best).squeeze(1)
-            values = self.network(before).float().gather(1, choice.unsqueeze(1)).squeeze(1)
+            all_values = self.network(before).float()
+            values = all_values.gather(1, choice.unsqueeze(1)).squeeze(1)
         target = reward + discount * next_value
         beta = self.spec.beta + (1 - self.spec.beta) * min(1.0, self.updates / self.spec.beta_updates)
-        loss = (weight**beta * functional.huber_loss(values, target, reduction="none")).mean()
+        losses = functional.huber_loss(values, target, reduction="none")
+        if self.spec.margin:
+            others = self.spec.margin * (1 - functional.one_hot(choice, self.n_choices))
+            demonstrated = batch["demonstrated"].to(DEVICE)
+            losses = losses + demonstrated * ((all_values + others).max(1).values - values)
+        loss = (weight**beta * losses).mean()
         self.optimizer.zero_grad()
         torch.autograd.backward(loss)
         self.optimizer.step()
@@ -116,3 +158,10 @@ class QFunction:
         self.updates += 1
         if self.updates % self.spec.target_every == 0:
             self.target.load_state_dict(self.network.state_dict())
+
+
+def _optimizer(parameters: Iterable[nn.Parameter], spec: DqnSpec) -> torch.optim.Optimizer:
+    """Return the optimizer of a specification. RMSprop has the values of the authors' code."""
+    if spec.optimizer == "adam":
+        return torch.optim.Adam(parameters, lr=spec.learning_rate, fused=True)
+    return torch.optim.RMSprop(parameters, lr=spec.learning_rate, alpha=0.95, eps=1e-8)

@@ -58,6 +58,7 @@ class Replay:
             "choice": np.zeros(spec.capacity, np.int64),
             "reward": np.zeros(spec.capacity, np.float32),
             "discount": np.zeros(spec.capacity, np.float32),
+            "demonstrated": np.zeros(spec.capacity, bool),
             "priority": np.zeros(spec.capacity, np.float64),
         }
         self._planes: dict[int, Plane] = {}  # by number, in ascending order
@@ -72,7 +73,7 @@ class Replay:
         highest = float(self._columns["priority"][: self._size].max()) if self._size else 1.0
         numbers = self._store(experience.observations)
         for one in experience.transitions:
-            self._append(one, numbers, highest)
+            self._append(one, numbers, experience.demonstrated, highest)
         self._forget()
 
     def _store(self, observations: Sequence[Observation]) -> list[list[int]]:
@@ -97,13 +98,14 @@ class Replay:
         self._n_planes += 1
         return self._n_planes - 1
 
-    def _append(self, one: Transition, numbers: list[list[int]], priority: float) -> None:
+    def _append(self, one: Transition, numbers: list[list[int]], demonstrated: bool, priority: float) -> None:
         values = {
             "before": numbers[one.state],
             "after": numbers[one.next_state],
             "choice": one.choice,
             "reward": one.reward,
             "discount": self._spec.discount**one.steps if one.steps else 0.0,
+            "demonstrated": demonstrated,
             "priority": priority,
         }
         for name, value in values.items():

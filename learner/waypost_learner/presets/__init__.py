@@ -15,7 +15,7 @@ Changes = dict[str, "str | Changes"]
 """New values as JSON texts, by name; values of a group are nested."""
 
 PRESETS = {"lean": LEAN, "paper": PAPER}
-PRESETS_OF = {("montezuma", "lean"): montezuma.LEAN}
+PRESETS_OF = {("montezuma", "lean"): montezuma.LEAN, ("montezuma", "paper"): montezuma.PAPER}
 """The presets of single domains, by domain and name, where they differ from `PRESETS`."""
 
 

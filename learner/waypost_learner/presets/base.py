@@ -1,7 +1,9 @@
 """Defines the values of a preset, in groups, and how to replace single values by name."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
 
 from waypost_learner.policies.domain_use import NOTHING_DECLARED, DomainUse
 from waypost_learner.policies.dqn import DqnSpec
@@ -21,13 +23,31 @@ class Training:
     train_flat: TrainSpec  # of a flat policy
     train_hi_hybrid: TrainSpec  # of mu where each pi_g is a Q-function, which takes many more episodes
     dqn: DqnSpec  # of Q-functions
+    # Other values of the Q-functions of single subgoals, by the subgoal's name, such as {"stair": {"least": 1000}}.
+    dqn_of: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    def dqn_for(self, subgoal: str | None) -> DqnSpec:
+        """Return the values of a subgoal's Q-function, or of the others if None.
+
+        Raises:
+            ValueError: `dqn_of` has a name that is no value of a Q-function, or a value of another type.
+        """
+        changes = self.dqn_of.get(subgoal or "", {})
+        unknown = changes.keys() - vars(self.dqn).keys()
+        try:
+            if not unknown:
+                return TypeAdapter(DqnSpec).validate_python({**vars(self.dqn), **changes})
+        except ValidationError as error:
+            raise ValueError(f"dqn_of gives {subgoal!r} a value of a wrong type: {changes}") from error
+        raise ValueError(f"a Q-function has no value {min(unknown)!r}; the values are: {', '.join(vars(self.dqn))}")
 
 
 @dataclass(frozen=True)
 class Preset:
     """The values of a run. Names of values are unique across the groups `rollouts`, `training` and `use`."""
 
-    warm_start: int  # episodes of demonstrations before an interactive algorithm begins
+    warm_start: int  # episodes of demonstrations before an algorithm that imitates begins
+    demonstrations: int = field(default=0, kw_only=True)  # the same, of an algorithm whose pi_g are Q-functions
     rollouts: RolloutSpec
     training: Training
     use: DomainUse = NOTHING_DECLARED  # what is used of the domain's declarations
@@ -55,11 +75,11 @@ _GROUPS = ("rollouts", "training", "use")
 def groups_by_value(preset: Preset) -> dict[str, str]:
     """Return the group of each value by the value's name; "" for values of the preset itself."""
     found: dict[str, str] = {}
-    for field in fields(preset):
-        if field.name in _GROUPS:
-            found |= {value.name: field.name for value in fields(getattr(preset, field.name))}
+    for one in fields(preset):
+        if one.name in _GROUPS:
+            found |= {value.name: one.name for value in fields(getattr(preset, one.name))}
         else:
-            found[field.name] = ""
+            found[one.name] = ""
     return found
 
 

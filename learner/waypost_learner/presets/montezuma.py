@@ -1,4 +1,4 @@
-"""The preset `lean` for the domain `montezuma`."""
+"""The presets `lean` and `paper` for the domain `montezuma` (section 6.2, the appendix and Table 2)."""
 
 from dataclasses import replace
 
@@ -7,6 +7,7 @@ from waypost_learner.policies.dqn import DqnSpec
 from waypost_learner.policies.imitation import TrainSpec
 from waypost_learner.policies.networks import Convolution, NetworkSpec
 from waypost_learner.presets.base import Preset, Training
+from waypost_learner.rollout.experience import PseudoReward
 from waypost_learner.rollout.rollout import RolloutSpec, SelectionSpec
 
 # The small network learns in seconds from the few thousand labels that there are.
@@ -23,7 +24,48 @@ LEAN = Preset(
         train_lo=_SMALL_LO,
         train_flat=_SMALL_LO,
         train_hi_hybrid=_SMALL,
-        dqn=DqnSpec(),
+        dqn=DqnSpec(
+            batch=32,
+            discount=0.99,
+            ahead=10,
+            target_every=500,
+            least=500,
+            epsilon=((0, 0.3), (5_000, 0.02)),
+            pseudo=PseudoReward(reached=1.0, failed=-0.5, step=0.0),
+            stop_above=0.9,
+            margin=0.2,
+            symmetries=False,
+            bf16=False,
+        ),
     ),
     use=DomainUse(views=True),
+    demonstrations=10,
+)
+
+PAPER = Preset(
+    warm_start=0,
+    rollouts=RolloutSpec(SelectionSpec(temperature=0.0, termination_threshold=0.9), h_hi=4),
+    training=Training(
+        network=NetworkSpec(
+            (Convolution(32, 8, 4), Convolution(64, 4, 2), Convolution(64, 3)), hidden=512, hidden_std=0.01
+        ),
+        train_hi=TrainSpec(dropout=0.0),
+        train_lo=TrainSpec(dropout=0.0),
+        train_flat=TrainSpec(dropout=0.0),
+        train_hi_hybrid=TrainSpec(dropout=0.0, least=128, most=512),
+        dqn=DqnSpec(
+            learning_rate=1e-4,
+            optimizer="rmsprop",
+            batch=128,
+            discount=0.99,
+            target_every=2_000,
+            capacity=500_000,
+            least=20_000,
+            epsilon=((0, 1.0), (200_000, 0.02)),
+            from_success=True,
+            stop_above=0.9,
+            symmetries=False,
+        ),
+        dqn_of={"stair": {"least": 1_000, "epsilon": ((0, 1.0), (50_000, 0.02))}},
+    ),
 )

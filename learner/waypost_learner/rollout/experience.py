@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from waypost.trajectory import Observation, Segment, Trajectory
+from waypost.trajectory import Observation, Outcome, Segment, Trajectory
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,8 @@ class Experience:
 
     observations: tuple[Observation, ...]
     transitions: tuple[Transition, ...]
+    outcome: Outcome | None = None  # of the subgoal; None if it was cut off, or for other experience
+    demonstrated: bool = False  # whether an expert chose
 
     def observed(self, observe: Callable[[Observation], Observation]) -> "Experience":
         """Return the same experience with each observation mapped by `observe`."""
@@ -58,7 +60,13 @@ def of_subgoal(segment: Segment, pseudo: PseudoReward, returns: Returns) -> Expe
     rewards = [pseudo.step] * len(segment.actions)
     if segment.outcome is not None:
         rewards[-1] = getattr(pseudo, segment.outcome)
-    return _experience(segment, rewards, segment.outcome is not None or segment.final, returns)
+    experience = _experience(segment, rewards, segment.outcome is not None or segment.final, returns)
+    return replace(experience, outcome=segment.outcome)
+
+
+def of_demonstration(segment: Segment, pseudo: PseudoReward, returns: Returns) -> Experience:
+    """Return the transitions of a segment that an expert carried out: it reached its subgoal."""
+    return replace(of_subgoal(replace(segment, outcome="reached"), pseudo, returns), demonstrated=True)
 
 
 def of_actions(segment: Segment, returns: Returns) -> Experience:

@@ -6,7 +6,8 @@ Tensors, where KEY is a policy's number (`PolicyKey.number`):
 - `optimizer.KEY.INDEX.NAME`, `rng.KEY`, `data.KEY.*`: the optimizer, the random generator, the buffer.
 - `due`: the policies that train while the expert answers the next query.
 - `trained.KEY.NAME`, `averaged.KEY`: if an average of the weights acts, the trained weights and the number of updates.
-- `target.KEY.NAME`, `counts.KEY`: a Q-function's target network, and its steps and updates.
+- `target.KEY.NAME`, `counts.KEY`, `attempts.KEY`: a Q-function's target network; its steps, its updates and whether
+  any attempt succeeded; its last attempts.
 
 The file's metadata holds the `Header` as JSON. No code is stored, so loading a file runs none.
 """
@@ -117,7 +118,9 @@ def _restore(tensors: Tensors, learner: Learner) -> None:
         if f"rng.{n}" in tensors:
             q.target.load_state_dict(_below(tensors, f"target.{n}."))
             q.replay.load(_below(tensors, f"data.{n}."))
-            q.steps, q.updates = tensors[f"counts.{n}"].tolist()
+            q.steps, q.updates, succeeded = tensors[f"counts.{n}"].tolist()
+            q.succeeded = bool(succeeded)
+            q.attempts.extend(tensors[f"attempts.{n}"].tolist())
 
 
 def weights_hash(learner: Learner) -> str:
@@ -150,7 +153,8 @@ def _training_state(learner: Learner) -> Tensors:
     for key, q in learner.q.items():
         tensors |= {f"target.{key.number}.{name}": tensor for name, tensor in q.target.state_dict().items()}
         tensors |= {f"data.{key.number}.{name}": tensor for name, tensor in q.replay.tensors().items()}
-        tensors[f"counts.{key.number}"] = torch.tensor([q.steps, q.updates])
+        tensors[f"counts.{key.number}"] = torch.tensor([q.steps, q.updates, q.succeeded])
+        tensors[f"attempts.{key.number}"] = torch.tensor(list(q.attempts), dtype=torch.bool)
     return tensors
 
 

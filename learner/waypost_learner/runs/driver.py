@@ -65,7 +65,7 @@ class OpenEpisode:
     generator: Generator[Query, Any, Labels]
     steps: int = 0  # of the learner's rollout; 0 for a demonstration
     success: bool | None = None  # of the learner's rollout; None for a demonstration
-    passed: bool | None = None  # the answer to Inspect_FULL, if it was asked
+    passed: bool | None = None  # whether its choices were right as far as queries told; None if none was asked
     ordinal: int = 0  # of the next query
     pending: int | None = None  # the query whose answer it waits for
     units: float = 0  # the cost of its answers
@@ -141,7 +141,8 @@ class Driver:
 
     def _start_episode(self, number: int) -> None:
         """Draw an instance and run the episode up to its first open query."""
-        warm_start = self._algorithm.warm_start if number < self._learner.preset.warm_start else None
+        warm = number < self._algorithm.demonstrations(self._learner.preset)
+        warm_start = self._algorithm.warm_start if warm else None
         redraw = self._config.redraw and not warm_start
         draw = self._instances.failing_draw(self._learner, self._draws) if redraw else self._draws
         self._draws = draw + 1
@@ -197,9 +198,21 @@ class Driver:
         episode.withdraw()
         episode.pending, episode.withdraw = None, lambda: None
         episode.units += used.units or 0
-        if used.answer.kind == "inspect_full":
-            episode.passed = used.answer.verdict == "pass"
+        passed = self._passed(used.ask, used.answer)
+        episode.passed = episode.passed if passed is None else passed
         return episode.resume(partial(episode.generator.send, episode.translator.answer(used.answer)))
+
+    def _passed(self, ask: wire.Ask, answer: wire.Answer) -> bool | None:
+        """Return whether what is monitored was right, as an answer says; None if it does not say.
+
+        Inspect_FULL says it. Where each pi_g learns by itself, only mu is monitored: its subgoals may all be right in
+        an episode that failed.
+        """
+        if isinstance(answer, wire.InspectAnswer) and answer.kind == "inspect_full":
+            return answer.verdict == "pass"
+        if isinstance(ask, wire.AskLabelHi) and isinstance(answer, wire.LabelHiAnswer) and self._algorithm.levels.q_lo:
+            return answer.subgoals == [segment.subgoal for segment in ask.segments]
+        return None
 
     def _wait(self) -> None:
         """Wait for answers, and continue the episodes that they belong to."""

@@ -35,7 +35,7 @@ def set_up(config: TrainConfig, threads: int | None) -> Setup:
             or has no effect; the message says what to write instead.
     """
     algorithm = find_algorithm(config.algorithm)
-    if config.redraw and not algorithm.interactive:
+    if config.redraw and (not algorithm.interactive or algorithm.levels.q_lo):
         raise ValueError(f"{config.algorithm} never draws an instance again: leave out --redraw")
     if config.warm_start is not None and not algorithm.interactive:
         raise ValueError(f"{config.algorithm} has no warm start: leave out --warm-start")
@@ -45,6 +45,9 @@ def set_up(config: TrainConfig, threads: int | None) -> Setup:
     if learner.preset.monitoring.share < 1 and (config.redraw or not algorithm.monitored):
         monitored = ", ".join(name for name, one in ALGORITHMS.items() if one.monitored)
         raise ValueError(f"monitoring.share below 1 works only with {monitored}, and without --redraw")
+    strangers = learner.preset.training.dqn_of.keys() - set(learner.domain.subgoals)
+    if strangers:
+        raise ValueError(f"dqn_of names {min(strangers)!r}, but the subgoals are: {', '.join(learner.domain.subgoals)}")
     refuse_useless_values(config, algorithm, learner)
     missing = missing_parts(learner)
     return Setup(config, algorithm, learner, learner.domain.instances(config.instances), missing)
@@ -60,6 +63,6 @@ def build_learner(config: TrainConfig, threads: int | None) -> Learner:
     domain = find_domain(config.domain)
     preset = find_preset(config.preset, config.values, domain.name)
     if config.warm_start is not None:
-        preset = preset.with_values(warm_start=config.warm_start)
+        preset = preset.with_values(**{"demonstrations" if levels.q_lo else "warm_start": config.warm_start})
     start = None if config.head_start is None else head_start(domain, config.head_start)
     return Learner(domain, preset, config.seed, levels, threads, start)

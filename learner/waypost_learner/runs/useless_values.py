@@ -36,7 +36,8 @@ def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str
     planned = {key for key in learner.learned if isinstance(learner.views[key].network, PlanningSpec)}
     hi = not (levels.flat or levels.q_hi)
     checks = {
-        "warm_start": (algorithm.interactive, f"{name} has no warm start"),
+        "warm_start": (algorithm.interactive and not levels.q_lo, f"{name} has no warm start (demonstrations)"),
+        "demonstrations": (algorithm.interactive and levels.q_lo, f"{name} has no Q-functions that imitate"),
         "h_hi": (not levels.flat, f"{name} has no subgoals"),
         "h_lo": (not levels.flat, f"{name} has no subgoals"),
         "repeat_penalty": (
@@ -51,6 +52,7 @@ def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str
         "train_lo": (not levels.flat and not levels.q_lo, f"{name} has no pi_g that imitates"),
         "train_flat": (levels.flat and not levels.q_lo, f"{name} has no flat policy that imitates"),
         "dqn": (levels.reinforced, f"{name} has no Q-function"),
+        "dqn_of": (levels.q_lo and not levels.flat, f"{name} has no Q-function of a subgoal"),
         "dqn.pseudo": (levels.q_lo and not levels.flat, f"{name} has no Q-function of a subgoal"),
         "symmetries": (
             bool(symmetries_of(domain)) and (levels.imitating or preset.use.tied),

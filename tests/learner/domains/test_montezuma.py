@@ -25,8 +25,13 @@ from waypost_learner.domains.montezuma.expert import build, collisions, graph, p
 from waypost_learner.domains.montezuma.game import ACTIONS, Game
 from waypost_learner.domains.montezuma.landmarks import DOOR, KEY, STAIR
 from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.policies.labels import Labels
+from waypost_learner.remote.translation import Translator
+from waypost_learner.rollout.policy_keys import pi
 from waypost_learner.rollout.simulator import Simulator
+from waypost_learner.runs.checkpoints import load
 from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.setup import build_learner
 from waypost_learner.runs.training import train
 
 domain = MontezumaDomain()
@@ -341,3 +346,24 @@ def test_the_command_says_that_a_domain_has_nothing_to_compute(tmp_path: Path) -
     done = CliRunner().invoke(app, ["domain", "build", "maze", str(tmp_path / "file")])
     assert done.exit_code == 2
     assert done.output == "The domain 'maze' has no data to compute.\n"
+
+
+def test_the_hybrid_begins_with_demonstrations_and_learns_from_them(tmp_path: Path) -> None:
+    values = "demonstrations=2 train_hi_hybrid.least=64 train_hi_hybrid.most=64"
+    config = TrainConfig("hg-dagger-q", domain="montezuma", episodes=3, values=values)
+    learner = build_learner(config, threads=1)
+    warm = list[bool]()
+    with store(tmp_path / "runs") as (connection, options):
+        summary = train(config, connection, options, on_episode=lambda result, _units: warm.append(result.warm_start))
+        load(options.checkpoints / f"{summary['run']}.safetensors", learner)
+    assert warm == [True, True, False]
+    assert summary["cost"]["by_kind"]["hier_demo"] > 2 * 130
+    instance = Instance(0)
+    start, answer = simulator.reset(instance), OracleExpert(domain).demonstrate
+    demonstration = Translator(domain, instance).answer(answer(domain.instance_view(instance), start.view))
+    labels = Labels()
+    labels.append_demonstration(demonstration)  # type: ignore[arg-type]
+    learner.learn(labels)
+    lengths = [len(segment.actions) for segment in demonstration]  # type: ignore[union-attr]
+    assert [len(learner.q[pi(g)].replay) for g in range(4)] == lengths
+    assert all(learner.q[pi(g)].succeeded for g in range(4))

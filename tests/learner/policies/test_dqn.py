@@ -1,5 +1,6 @@
 """Q-functions: what they learn, and how they explore."""
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 import torch
 
+from waypost.trajectory import Outcome
 from waypost_learner.policies.dqn import DqnSpec, QFunction
 from waypost_learner.policies.networks import NetworkSpec, blocks
 from waypost_learner.rollout.experience import Experience, Transition
@@ -88,3 +90,62 @@ def test_nothing_is_learned_before_there_is_the_least_experience() -> None:
     for _ in range(20):
         q.step()
     assert (q.steps, q.updates) == (20, 0)
+
+
+def attempt(outcome: Outcome | None, demonstrated: bool = False) -> Experience:
+    return replace(chain(), outcome=outcome, demonstrated=demonstrated)
+
+
+def test_experience_can_be_kept_only_from_the_first_success_on() -> None:
+    q = QFunction((5,), 2, NETWORK, replace(SPEC, from_success=True), 0)
+    sizes = []
+    for outcome in ("failed", None, "reached", "failed"):
+        one = attempt(outcome)
+        q.attempt(one)
+        q.remember(one)
+        sizes.append(len(q.replay))
+    assert sizes == [0, 0, 8, 16]
+
+
+def test_updates_stop_while_the_last_hundred_attempts_succeed_often_enough() -> None:
+    q = QFunction((5,), 2, NETWORK, replace(SPEC, stop_above=0.9), 0)
+    q.remember(chain())
+    updates = []
+    for outcome, times in (("reached", 99), ("reached", 1), ("failed", 9), ("failed", 1)):
+        for _ in range(times):
+            q.attempt(attempt(outcome))
+        before = q.updates
+        q.step()
+        updates.append(q.updates - before)
+    assert updates == [1, 0, 0, 1]  # 91 of 100 is above 0.9, 90 of 100 is not
+
+
+def test_a_demonstration_is_a_success_but_no_attempt() -> None:
+    q = QFunction((5,), 2, NETWORK, SPEC, 0)
+    q.attempt(attempt("reached", demonstrated=True))
+    assert q.succeeded
+    assert not q.attempts
+
+
+def test_a_demonstrated_choice_exceeds_the_others_by_a_margin() -> None:
+    """Both actions of the last cell bring the same; only the demonstration makes one better."""
+    both = Experience((one_hot(0),), (Transition(0, 0, 0.0, 0, 0), Transition(0, 1, 0.0, 0, 0)))
+    shown = replace(both, transitions=both.transitions[:1], demonstrated=True)
+    gaps = []
+    for demonstration in (both, shown):
+        q = QFunction((5,), 2, NETWORK, replace(SPEC, margin=0.5), 0)
+        for one in (both, demonstration):
+            q.remember(one)
+        for _ in range(400):
+            q.step()
+        ((wrong, right),) = q(one_hot(0)[None]).logits[:, ::-1]
+        gaps.append(right - wrong)
+    assert gaps[0] == pytest.approx(0, abs=0.05)
+    assert gaps[1] > 0.15
+
+
+@pytest.mark.parametrize("optimizer", ["adam", "rmsprop"])
+def test_either_optimizer_learns_the_chain(optimizer: str) -> None:
+    spec = replace(SPEC, optimizer=optimizer, learning_rate=1e-2 if optimizer == "adam" else 1e-3)
+    values = learned(spec, 900)(np.stack([one_hot(i) for i in range(4)])).logits
+    assert values.argmax(1).tolist() == [1, 1, 1, 1]

@@ -13,6 +13,7 @@ from tests.learner.kit import corridor, examples, history, store
 
 from waypost import wire
 from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.policies.dqn import QFunction
 from waypost_learner.presets import find_preset
 from waypost_learner.presets.monitoring import EVERY_EPISODE, Monitoring
 from waypost_learner.runs.config import TrainConfig
@@ -53,10 +54,10 @@ def test_what_is_no_share_and_no_rate_is_refused(values: str) -> None:
 
 @pytest.mark.parametrize(
     "values",
-    [{"algorithm": one} for one in ("h-bc", "naive-h-dagger", "hg-dagger-q", "flat-bc", "h-dqn")] + [{"redraw": True}],
+    [{"algorithm": one} for one in ("h-bc", "naive-h-dagger", "flat-bc", "h-dqn")] + [{"redraw": True}],
 )
 def test_monitoring_is_refused_where_nothing_is_monitored(values: dict[str, Any]) -> None:
-    with pytest.raises(ValueError, match="works only with hg-dagger, hg-stagger, flat-dagger, and"):
+    with pytest.raises(ValueError, match="works only with hg-dagger, hg-stagger, flat-dagger, hg-dagger-q, and"):
         set_up(corridor(values="monitoring.share=0.5", **values), threads=1)
 
 
@@ -101,6 +102,32 @@ def test_what_is_known_to_succeed_is_not_asked_about_and_not_charged(
     assert all(result.train_success is not None for result in reported[3:])
     assert reported[4].lo_labels >= reported[3].lo_labels > 0
     assert all(result.lo_labels == reported[4].lo_labels for result in reported[4:])
+
+
+def test_the_hybrid_is_asked_about_subgoals_until_they_are_known_to_be_right_and_then_learns_by_itself(
+    tmp_path: Path, judge: Callable[[set[int]], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    judge(set(range(12)))  # no episode succeeds, but from episode 2 on every subgoal is right
+    judged = OracleExpert.__call__
+
+    def agrees(expert: OracleExpert, ask: wire.Ask) -> wire.Answer:
+        if isinstance(ask, wire.AskLabelHi) and ask.episode >= 2:
+            return wire.LabelHiAnswer(kind="label_hi", subgoals=[str(one.subgoal) for one in ask.segments])
+        if isinstance(ask, wire.AskLabelHi):
+            others = {"west": "east", "east": "target", "target": "west"}
+            return wire.LabelHiAnswer(kind="label_hi", subgoals=[others[str(one.subgoal)] for one in ask.segments])
+        return judged(expert, ask)
+
+    monkeypatch.setattr(OracleExpert, "__call__", agrees)
+    config = corridor(algorithm="hg-dagger-q", values=f"monitoring.share=0.0 {SOON}", warm_start=0)
+    learned: list[int] = []
+    original = QFunction.remember
+    monkeypatch.setattr(
+        QFunction, "remember", lambda q, one: (learned.append(len(one.transitions)), original(q, one))[1]
+    )
+    asked, reported = asked_and_reported(tmp_path, config)
+    assert list(asked) == [0, 1, 2, 3]
+    assert sum(learned) >= sum(result.train_steps for result in reported[2:])
 
 
 def test_a_share_is_inspected_until_one_fails_and_then_everything_again(

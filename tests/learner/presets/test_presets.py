@@ -6,6 +6,8 @@ import pytest
 
 from waypost_learner.presets import PRESETS, find_preset
 from waypost_learner.presets.base import groups_by_value, value_of
+from waypost_learner.runs.config import TrainConfig
+from waypost_learner.runs.setup import set_up
 
 LEAN, PAPER = PRESETS["lean"], PRESETS["paper"]
 
@@ -83,3 +85,23 @@ def test_without_views_nothing_is_planned() -> None:
 def test_what_is_no_value_is_refused_with_what_there_is(values: str, said: str) -> None:
     with pytest.raises(ValueError, match=said):
         find_preset("paper", values)
+
+
+def test_single_subgoals_can_have_other_values_of_their_q_functions() -> None:
+    training = find_preset("paper", domain="montezuma").training
+    assert (training.dqn_for("stair").least, training.dqn_for("key").least) == (1_000, 20_000)
+    assert training.dqn_for("stair") == replace(training.dqn, least=1_000, epsilon=((0, 1.0), (50_000, 0.02)))
+    assert training.dqn_for(None) == training.dqn
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ('dqn_of={"key":{"leest":5}}', "no value 'leest'; the values are: learning_rate, "),
+        ('dqn_of={"key":{"least":"many"}}', "gives 'key' a value of a wrong type"),
+        ('dqn_of={"keys":{"least":5}}', "names 'keys', but the subgoals are: stair, key, stair_back, door"),
+    ],
+)
+def test_values_of_single_subgoals_that_cannot_be_are_refused(values: str, said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        set_up(TrainConfig("hg-dagger-q", domain="montezuma", values=values), threads=1)

@@ -17,7 +17,7 @@ def test_every_run_of_the_figures_is_one_that_can_be_set_up(config: TrainConfig)
     assert set_up(config, threads=1).config == config
 
 
-@pytest.mark.parametrize("algorithm", ["h-bc", "flat-bc", "hg-dagger-q", "h-dqn", "flat-dqn"])
+@pytest.mark.parametrize("algorithm", ["h-bc", "flat-bc", "h-dqn", "flat-dqn"])
 def test_a_warm_start_is_for_algorithms_that_have_one(algorithm: str) -> None:
     with pytest.raises(ValueError, match=f"{algorithm} has no warm start: leave out --warm-start"):
         set_up(TrainConfig(algorithm, domain="corridor", warm_start=2), threads=1)

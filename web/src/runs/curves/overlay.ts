@@ -1,6 +1,6 @@
 // Several runs in one chart: groups that differ only by seed, their median and range.
 import type { Curves, Run } from '../../api/types';
-import { settingsOf } from '../configuration';
+import { settingsOf } from '../../api/configuration';
 import { X_AXES, type XAxisName } from './curves';
 
 /** Runs that differ only by seed. */

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import type { Run } from '../api/types';
+import type { Run } from './types';
 import { missingPartsOf, settingsOf } from './configuration';
 
 const run = (config: Run['config']): Run => ({ config }) as Run;

@@ -1,5 +1,5 @@
 // What a run's configuration says: its settings, and what it used instead of parts that its domain does not provide.
-import type { Run } from '../api/types';
+import type { Run } from './types';
 
 const NOT_PROVIDED = 'not_provided';
 
