@@ -4,6 +4,7 @@ from playwright.sync_api import Page
 
 from waypost import wire
 
+DEMO_MS = 120_000  # a demonstration may have hundreds of steps, which the learner carries out one by one
 ARROWS = {"←": "ArrowLeft", "→": "ArrowRight", "↑": "ArrowUp", "↓": "ArrowDown"}
 
 
@@ -18,7 +19,7 @@ def give(page: Page, answer: wire.Answer) -> None:
                 press(page, "Subgoal", segment.subgoal)
                 for action in segment.actions:
                     press(page, "Action", action)
-            page.get_by_text("The task is accomplished. Send the demonstration.").wait_for()
+            page.get_by_text("The task is accomplished. Send the demonstration.").wait_for(timeout=DEMO_MS)
         case wire.InspectAnswer():
             page.keyboard.press(answer.verdict[0])
             return

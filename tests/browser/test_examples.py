@@ -22,11 +22,10 @@ SEED = 4
 INSTANCES: dict[str, Any] = {**dict.fromkeys(DOMAINS, SEED), "montezuma": Instance(noops=SEED)}
 
 
-def expect_picture(page: Page, one: Asked) -> None:
+def expect_picture(page: Page, _: Asked) -> None:
     """The page shows a picture of the state."""
-    picture = page.locator("img.shown")
-    expect(picture).to_be_visible()
-    assert picture.evaluate("image => image.naturalWidth") >= 160, one.ask.kind
+    expect(page.locator("img.shown")).to_be_visible()
+    page.wait_for_function("() => document.querySelector('img.shown')?.naturalWidth >= 160")  # it has arrived
 
 
 def expect_conversation(page: Page, one: Asked) -> None:

@@ -13,7 +13,7 @@ _LEGS = {(STAIR, False): 0, (KEY, False): 1, (STAIR_BACK, True): 0, (DOOR, True)
 class RoomOracle:
     """The oracle (`waypost.domains.Oracle`).
 
-    An action is good if it costs less than one step more than the best one. In states from which the figure can only
+    An action is good if it costs at most half a step more than the best one. In states from which the figure can only
     die, no action is good.
     """
 
