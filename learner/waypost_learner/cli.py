@@ -199,8 +199,9 @@ def demo(
     with learner_errors():
         from waypost.domains import find_domain
         from waypost_learner.demo import run_demo
+        from waypost_learner.experts.oracle import OracleExpert
 
-        find_domain(domain)
+        OracleExpert(find_domain(domain))  # refuses a domain that the bot could not answer about
         run_demo(port, database, episodes, domain, instances or ("corners" if domain == "maze" else "random"))
 
 

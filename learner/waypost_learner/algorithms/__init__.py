@@ -38,11 +38,11 @@ class Algorithm:
         """Whether the expert labels the learner's own rollouts after a warm start of demonstrations."""
         return self.warm_start is not None
 
-    def demonstrations(self, preset: Preset) -> int:
+    def warm_episodes(self, preset: Preset) -> int:
         """Return the number of episodes in the warm start."""
         if self.warm_start is None:
             return 0
-        return preset.demonstrations if self.levels.q_lo else preset.warm_start
+        return preset.warm_start_hybrid if self.levels.q_lo else preset.warm_start
 
 
 _FLAT = Levels(flat=True)

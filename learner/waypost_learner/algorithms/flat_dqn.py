@@ -6,7 +6,6 @@ from typing import Any
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import Query
 from waypost_learner.policies.labels import Labels
-from waypost_learner.rollout import experience
 from waypost_learner.rollout.policy_keys import FLAT
 from waypost_learner.rollout.simulator import Start
 
@@ -14,7 +13,6 @@ from waypost_learner.rollout.simulator import Start
 def flat_dqn(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     """Run one episode, and learn from all of its transitions."""
     labels = Labels()
-    (tau,) = learner.roll_out(s)
-    labels.append_experience(FLAT, experience.of_actions(tau, learner.preset.training.dqn.returns))
+    labels.append_experience(FLAT, learner.roll_out(s))
     yield from ()  # no queries
     return labels

@@ -9,7 +9,6 @@ from typing import Any
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import Query
 from waypost_learner.policies.labels import Labels
-from waypost_learner.rollout import experience
 from waypost_learner.rollout.policy_keys import META, pi
 from waypost_learner.rollout.simulator import Start
 
@@ -17,11 +16,10 @@ from waypost_learner.rollout.simulator import Start
 def h_dqn(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     """Run one episode, and learn from all of its transitions."""
     labels = Labels()
-    dqn = learner.preset.training.dqn
     sigma = learner.roll_out(s)
     for segment in sigma:
         assert segment.subgoal is not None
-        labels.append_experience(pi(segment.subgoal), experience.of_subgoal(segment, dqn.pseudo, dqn.returns))
-    labels.append_experience(META, experience.of_subgoals(sigma, dqn.discount))
+        labels.append_experience(pi(segment.subgoal), (segment,))
+    labels.append_experience(META, sigma)
     yield from ()  # no queries
     return labels

@@ -6,7 +6,6 @@ from typing import Any
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import InspectFull, LabelHi, Query
 from waypost_learner.policies.labels import Labels
-from waypost_learner.rollout import experience
 from waypost_learner.rollout.policy_keys import pi
 from waypost_learner.rollout.simulator import Start
 
@@ -14,7 +13,6 @@ from waypost_learner.rollout.simulator import Start
 def hg_dagger_q(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     """Run one episode, lines 5-22. `Learner.learn` does Train (line 23)."""
     labels = Labels()
-    dqn = learner.preset.training.dqn
     sigma = learner.roll_out(s)  # lines 5-15
     good = sigma
     if not (yield InspectFull(sigma)):  # line 17
@@ -24,5 +22,5 @@ def hg_dagger_q(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
         labels.append_hi(sigma, d_star)  # line 21
     for segment in good:  # lines 20 and 22
         assert segment.subgoal is not None
-        labels.append_experience(pi(segment.subgoal), experience.of_subgoal(segment, dqn.pseudo, dqn.returns))
+        labels.append_experience(pi(segment.subgoal), (segment,))
     return labels

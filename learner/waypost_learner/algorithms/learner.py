@@ -1,9 +1,10 @@
 """A learner: its policies, the data buffers they learn from, and rollouts under them."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ import torch
 from waypost.domains import Domain, Placed, Relabeling, Retracing, Symmetry, symmetries_of
 from waypost.trajectory import Trajectory
 from waypost_learner.policies.datasets import Dataset
-from waypost_learner.policies.dqn import QFunction
+from waypost_learner.policies.dqn import DqnSpec, QFunction
 from waypost_learner.policies.imitation import Policy
 from waypost_learner.policies.labels import (
     Labels,
@@ -25,7 +26,7 @@ from waypost_learner.policies.levels import HIERARCHY, Levels
 from waypost_learner.policies.views import policy_view
 from waypost_learner.presets.base import Preset
 from waypost_learner.rollout import streams
-from waypost_learner.rollout.experience import Experience, of_demonstration
+from waypost_learner.rollout.experience import Experience, experience_of
 from waypost_learner.rollout.policy_keys import META, PolicyKey, pi
 from waypost_learner.rollout.rollout import Behavior, Rollout, flat_rollout, hierarchical_rollout, run, unique_place
 from waypost_learner.rollout.simulator import HeadStart, Simulator, Start
@@ -77,8 +78,10 @@ class Learner:
 
     def _q_function(self, key: PolicyKey) -> QFunction:
         view = self.views[key]
-        dqn = self.preset.training.dqn_for(None if key.subgoal is None else self.domain.subgoals[key.subgoal])
-        return QFunction(view.view.shape, self._n_choices(key), view.network, dqn, self._seed(key))
+        return QFunction(view.view.shape, self._n_choices(key), view.network, self._dqn(key), self._seed(key))
+
+    def _dqn(self, key: PolicyKey) -> DqnSpec:
+        return self.preset.training.dqn_for(None if key.subgoal is None else self.domain.subgoals[key.subgoal])
 
     def _n_choices(self, key: PolicyKey) -> int:
         return len(self.domain.subgoals if key == META else self.domain.actions)
@@ -150,7 +153,8 @@ class Learner:
         relabeling = self.domain if isinstance(self.domain, Relabeling | Retracing) else None
         rows = rows_of(labels, relabeling if use.relabeling else None)
         self._append_rows(rows, symmetries_of(self.domain) if use.symmetries else ())
-        self._remember([*labels.experience, *self._demonstrated(labels)])
+        if self.q:
+            self._remember(list(self._experience_of(labels)))
         self.due = [
             key
             for key, policy in self.imitators.items()
@@ -174,15 +178,18 @@ class Learner:
                     observe = self.views[key].view.observe
                     self.data[key].append(replace(row, observation=observe(row.observation)) for row in found)
 
-    def _demonstrated(self, labels: Labels) -> list[tuple[PolicyKey, Experience]]:
-        """Return the demonstrated segments as experience."""
-        dqn = self.preset.training.dqn
-        return [
-            (pi(segment.subgoal), of_demonstration(segment, dqn.pseudo, dqn.returns))
-            for demonstration in labels.demonstrations
-            for segment in demonstration
-            if segment.subgoal is not None
-        ]
+    def _experience_of(self, labels: Labels) -> Iterator[tuple[PolicyKey, Experience]]:
+        """Yield what Q-functions learn from: rollouts, and demonstrated segments, which reached their subgoals."""
+        for key, trajectory in labels.experience:
+            yield key, self._experience(key, trajectory)
+        for segment in chain.from_iterable(labels.demonstrations):
+            if segment.subgoal is not None:
+                reached = replace(segment, outcome="reached")
+                yield pi(segment.subgoal), replace(self._experience(pi(segment.subgoal), (reached,)), demonstrated=True)
+
+    def _experience(self, key: PolicyKey, trajectory: Trajectory) -> Experience:
+        dqn = self._dqn(key)
+        return experience_of(key, trajectory, dqn.pseudo, dqn.returns)
 
     def _remember(self, experience: Sequence[tuple[PolicyKey, Experience]]) -> None:
         """Append experience to the replay buffers, then the same experience transformed by each symmetry."""

@@ -6,16 +6,15 @@ from typing import Any
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import Query
 from waypost_learner.policies.labels import Labels
-from waypost_learner.rollout import experience
 from waypost_learner.rollout.policy_keys import pi
 from waypost_learner.rollout.simulator import Start
 
 
 def uninspected(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     """Roll out one episode. Q-functions learn from all of it, as if every subgoal were right; nothing else learns."""
-    labels, dqn = Labels(), learner.preset.training.dqn
+    labels = Labels()
     for segment in learner.roll_out(s):
         if learner.levels.q_lo and segment.subgoal is not None:
-            labels.append_experience(pi(segment.subgoal), experience.of_subgoal(segment, dqn.pseudo, dqn.returns))
+            labels.append_experience(pi(segment.subgoal), (segment,))
     yield from ()  # no queries
     return labels

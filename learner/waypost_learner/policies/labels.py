@@ -32,7 +32,7 @@ class Labels:
     lo: list[tuple[Segment, LoLabels]] = field(default_factory=list)
     demonstrations: list[Trajectory] = field(default_factory=list)  # their labels are in `hi` and `lo` too
     flat: list[tuple[Trajectory, tuple[Action, ...]]] = field(default_factory=list)
-    experience: list[tuple[PolicyKey, Experience]] = field(default_factory=list)
+    experience: list[tuple[PolicyKey, Trajectory]] = field(default_factory=list)
 
     def append_hi(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> None:
         """D_HI <- D_HI + {(s_h, g*_h)}."""
@@ -53,9 +53,9 @@ class Labels:
         """D <- D + {(s, a*)} over the full trajectory."""
         self.flat.append((trajectory, tuple(good_actions)))
 
-    def append_experience(self, key: PolicyKey, experience: Experience) -> None:
+    def append_experience(self, key: PolicyKey, trajectory: Trajectory) -> None:
         """D_g <- D_g + tau_h (Algorithm 3, lines 20 and 22), or the same for another Q-function."""
-        self.experience.append((key, experience))
+        self.experience.append((key, trajectory))
 
 
 def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None) -> Rows:

@@ -46,8 +46,8 @@ class Training:
 class Preset:
     """The values of a run. Names of values are unique across the groups `rollouts`, `training` and `use`."""
 
-    warm_start: int  # episodes of demonstrations before an algorithm that imitates begins
-    demonstrations: int = field(default=0, kw_only=True)  # the same, of an algorithm whose pi_g are Q-functions
+    warm_start: int  # episodes of demonstrations before an interactive algorithm begins
+    warm_start_hybrid: int = field(default=0, kw_only=True)  # the same where each pi_g is a Q-function
     rollouts: RolloutSpec
     training: Training
     use: DomainUse = NOTHING_DECLARED  # what is used of the domain's declarations

@@ -39,7 +39,7 @@ LEAN = Preset(
         ),
     ),
     use=DomainUse(views=True),
-    demonstrations=10,
+    warm_start_hybrid=10,
 )
 
 PAPER = Preset(

@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from waypost.trajectory import Observation, Outcome, Segment, Trajectory
+from waypost_learner.rollout.policy_keys import PolicyKey
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,14 @@ class Returns:
     ahead: int = 1
 
 
+def experience_of(key: PolicyKey, trajectory: Trajectory, pseudo: PseudoReward, returns: Returns) -> Experience:
+    """Return what a Q-function learns from a trajectory: of one segment, unless it is a meta-controller's."""
+    if key.level == "hi":
+        return of_subgoals(trajectory, returns.discount)
+    (segment,) = trajectory
+    return of_subgoal(segment, pseudo, returns) if key.level == "lo" else of_actions(segment, returns)
+
+
 def of_subgoal(segment: Segment, pseudo: PseudoReward, returns: Returns) -> Experience:
     """Return the transitions (s, a, r~, s~) of a segment, for Q_g. The end of the subgoal or episode is terminal."""
     rewards = [pseudo.step] * len(segment.actions)
@@ -62,11 +71,6 @@ def of_subgoal(segment: Segment, pseudo: PseudoReward, returns: Returns) -> Expe
         rewards[-1] = getattr(pseudo, segment.outcome)
     experience = _experience(segment, rewards, segment.outcome is not None or segment.final, returns)
     return replace(experience, outcome=segment.outcome)
-
-
-def of_demonstration(segment: Segment, pseudo: PseudoReward, returns: Returns) -> Experience:
-    """Return the transitions of a segment that an expert carried out: it reached its subgoal."""
-    return replace(of_subgoal(replace(segment, outcome="reached"), pseudo, returns), demonstrated=True)
 
 
 def of_actions(segment: Segment, returns: Returns) -> Experience:

@@ -65,7 +65,7 @@ class OpenEpisode:
     generator: Generator[Query, Any, Labels]
     steps: int = 0  # of the learner's rollout; 0 for a demonstration
     success: bool | None = None  # of the learner's rollout; None for a demonstration
-    passed: bool | None = None  # whether its choices were right as far as queries told; None if none was asked
+    passed: bool | None = None  # whether what is monitored was right; None if no answer said
     ordinal: int = 0  # of the next query
     pending: int | None = None  # the query whose answer it waits for
     units: float = 0  # the cost of its answers
@@ -141,7 +141,7 @@ class Driver:
 
     def _start_episode(self, number: int) -> None:
         """Draw an instance and run the episode up to its first open query."""
-        warm = number < self._algorithm.demonstrations(self._learner.preset)
+        warm = number < self._algorithm.warm_episodes(self._learner.preset)
         warm_start = self._algorithm.warm_start if warm else None
         redraw = self._config.redraw and not warm_start
         draw = self._instances.failing_draw(self._learner, self._draws) if redraw else self._draws

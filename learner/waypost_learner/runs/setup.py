@@ -63,6 +63,6 @@ def build_learner(config: TrainConfig, threads: int | None) -> Learner:
     domain = find_domain(config.domain)
     preset = find_preset(config.preset, config.values, domain.name)
     if config.warm_start is not None:
-        preset = preset.with_values(**{"demonstrations" if levels.q_lo else "warm_start": config.warm_start})
+        preset = preset.with_values(**{"warm_start_hybrid" if levels.q_lo else "warm_start": config.warm_start})
     start = None if config.head_start is None else head_start(domain, config.head_start)
     return Learner(domain, preset, config.seed, levels, threads, start)

@@ -36,8 +36,8 @@ def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str
     planned = {key for key in learner.learned if isinstance(learner.views[key].network, PlanningSpec)}
     hi = not (levels.flat or levels.q_hi)
     checks = {
-        "warm_start": (algorithm.interactive and not levels.q_lo, f"{name} has no warm start (demonstrations)"),
-        "demonstrations": (algorithm.interactive and levels.q_lo, f"{name} has no Q-functions that imitate"),
+        "warm_start": (algorithm.interactive and not levels.q_lo, f"{name} has no warm start, or a hybrid's"),
+        "warm_start_hybrid": (algorithm.interactive and levels.q_lo, f"{name} has no warm start, or not a hybrid's"),
         "h_hi": (not levels.flat, f"{name} has no subgoals"),
         "h_lo": (not levels.flat, f"{name} has no subgoals"),
         "repeat_penalty": (

@@ -270,10 +270,10 @@ def test_naive_hierarchical_dagger_labels_everything_and_inspects_nothing(
 
 
 def learned_from(labels: Labels) -> Counter[PolicyKey]:
-    """How many transitions each Q-function learns from."""
+    """How many choices each Q-function learns from."""
     learned: Counter[PolicyKey] = Counter()
-    for key, experience in labels.experience:
-        learned[key] += len(experience.transitions)
+    for key, trajectory in labels.experience:
+        learned[key] += len(trajectory) if key == META else n_steps(trajectory)
     return learned
 
 

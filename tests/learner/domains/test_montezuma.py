@@ -22,7 +22,7 @@ from waypost_learner.domains.montezuma import table
 from waypost_learner.domains.montezuma.domain import MontezumaDomain
 from waypost_learner.domains.montezuma.env import Instance, MontezumaEnv
 from waypost_learner.domains.montezuma.expert import build, collisions, graph, planning
-from waypost_learner.domains.montezuma.game import ACTIONS, Game
+from waypost_learner.domains.montezuma.game import ACTIONS, Game, Memory
 from waypost_learner.domains.montezuma.landmarks import DOOR, KEY, STAIR
 from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.policies.labels import Labels
@@ -114,14 +114,12 @@ def test_no_ops_decide_where_the_skull_is() -> None:
 
 
 def test_the_detectors_agree_with_the_games_memory() -> None:
-    env = MontezumaEnv()
-    beside_key = 0
+    start, beside_key, noop = simulator.reset(Instance(0)).observation[-1], 0, ACTIONS.index("noop")
     for instance in domain.instances("slips").train[:12]:
-        env.reset(options={"instance": instance})
-        start, subgoal, ended = env._before, -1, False
+        env, subgoal, ended = domain.make_env(), -1, False
+        picture = env.reset(options={"instance": instance})[0][-1]
         while not ended:
             view = domain.state_view(env)
-            picture = env._frames[-1]
             assert view["at_stair"] == STAIR.changed(picture, start)
             if view["at_stair"]:
                 assert 125 <= view["x"] <= 133
@@ -132,10 +130,10 @@ def test_the_detectors_agree_with_the_games_memory() -> None:
             if subgoal < 0 or oracle.reached(None, None, view, subgoal):
                 subgoal = oracle.good_subgoals(None, view)[0]
             good = oracle.good_actions(None, None, view, subgoal)
-            ended = env.step(np.int64(good[0] if good else 0))[2]
-        opened = env.door_open
-        env.step(np.int64(0))
-        assert opened == DOOR.changed(env._frames[-1], start)  # the picture shows the open door one step later
+            (*_, picture), _, ended, *_ = env.step(np.int64(good[0] if good else noop))
+        opened = domain.succeeded(env)
+        (*_, picture), *_ = env.step(np.int64(noop))
+        assert opened == DOOR.changed(picture, start)  # the picture shows the open door one step later
     assert beside_key <= 12  # at most one step before the key is taken
 
 
@@ -232,7 +230,7 @@ def floor() -> graph.Graph:
         game.act(ACTIONS.index(action))
         memory = game.memory()
         if memory.y <= 175 and not memory.key:
-            found[graph.node_of(memory)] = game.snapshot()
+            found[node_of(memory)] = game.snapshot()
     places = {node: place for place, node in enumerate(list(found)[10:20])}
     after = [[follows(game, found[node], action, places) for action in range(len(ACTIONS))] for node in places]
     nodes = np.array([list(node) for node in places], np.uint8)
@@ -240,11 +238,15 @@ def floor() -> graph.Graph:
     return graph.Graph(nodes, np.zeros(len(nodes), bool), np.array(after, np.int32), snapshots)
 
 
+def node_of(memory: Memory) -> bytes:
+    return table.node_of(memory.x, memory.y, memory.motion, memory.key)
+
+
 def follows(game: Game, snapshot: bytes, action: int, places: dict[bytes, int]) -> int:
     game.restore(snapshot)
     graph.keep_skull_away(game)
     game.act(action)
-    return places.get(graph.node_of(game.memory()), graph.DIES)
+    return places.get(node_of(game.memory()), graph.DIES)
 
 
 def test_the_skull_kills_where_it_touches_and_only_there(floor: graph.Graph) -> None:
@@ -349,7 +351,7 @@ def test_the_command_says_that_a_domain_has_nothing_to_compute(tmp_path: Path) -
 
 
 def test_the_hybrid_begins_with_demonstrations_and_learns_from_them(tmp_path: Path) -> None:
-    values = "demonstrations=2 train_hi_hybrid.least=64 train_hi_hybrid.most=64"
+    values = "warm_start_hybrid=2 train_hi_hybrid.least=64 train_hi_hybrid.most=64"
     config = TrainConfig("hg-dagger-q", domain="montezuma", episodes=3, values=values)
     learner = build_learner(config, threads=1)
     warm = list[bool]()

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from tests.learner.kit import TINY, drawn_mazes, examples, mazes, random_labels, reachable_cells
 
 from waypost.domains import Domain, Symmetry
+from waypost.trajectory import Segment, State
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import CELLS, Corridor, CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
@@ -127,8 +128,8 @@ def test_a_preset_decides_whether_q_functions_see_their_experience_through_the_s
 ) -> None:
     preset = TINY.with_values(dqn=replace(TINY.training.dqn, symmetries=symmetric))
     learner = Learner(MazeDomain(), preset, seed=0, levels=Levels(q_lo=True), threads=1)
-    picture = np.zeros((3, 17, 17), np.float32)
+    here = State(np.zeros((3, 17, 17), np.float32), None)
     labels = Labels()
-    labels.append_experience(pi(0), Experience((picture, picture), (Transition(0, 0, 0.0, 1, 1),)))
+    labels.append_experience(pi(0), (Segment(0, (here, here), (0,), terminated=False),))
     learner.learn(labels)
     assert sum(len(q.replay) for q in learner.q.values()) == rows

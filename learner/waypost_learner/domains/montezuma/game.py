@@ -1,4 +1,4 @@
-"""The game in the Arcade Learning Environment: four frames at a time, without sticky actions (paper, appendix).
+"""The game in the Arcade Learning Environment, without sticky actions (paper, appendix).
 
 The package `ale-py` emulates the game and has its ROM (`pip install 'waypost[atari]'`).
 """
@@ -21,12 +21,11 @@ _EMULATED = (
     Action.LEFTFIRE,
 )
 FRAME_SKIP = 4
-KEY_REWARD, DOOR_REWARD = 100, 300
+DOOR_REWARD = 300
 SKULL_RANGE = range(22, 73)  # where the skull rolls, in its own coordinate
 
-# Addresses of the game's memory. Names of the first eight are those of the annotated memory map of Anand et al. 2019.
-_X, _Y, _SKULL_X, _INVENTORY, _DYING = 42, 43, 47, 65, 55
-_SKULL_DIRECTION = 51
+# Addresses of the game's memory, found by comparing the memory with the screen.
+_X, _Y, _SKULL_X, _SKULL_DIRECTION, _INVENTORY, _DYING = 42, 43, 47, 51, 65, 55
 _MOTION = (86, 88, 89, 56, 53)  # the phase of a jump, how deep a fall is, and what the figure does
 
 Grey = NDArray[np.uint8]
@@ -39,7 +38,7 @@ ALEInterface.setLoggerMode(LoggerMode.Error)
 
 @dataclass(frozen=True)
 class Memory:
-    """What the game's memory says about the room: everything that the next step depends on, but for a few frames."""
+    """What the game's memory says about the room. In almost every state, the next step depends on nothing else."""
 
     x: int
     y: int  # larger is higher
@@ -50,7 +49,7 @@ class Memory:
 
 
 class Game:
-    """The emulator in the first room, where one life is left to lose.
+    """The emulator in the first room.
 
     Args:
         frame_skip: the frames for which an action is held.

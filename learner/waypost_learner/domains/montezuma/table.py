@@ -4,8 +4,9 @@ A node is a state of the figure: its place, its motion, and whether it has the k
 steps whatever the figure does, so a state of the room is a node and a phase of the skull. `expert/` computes the table.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from waypost_learner.domains.montezuma.game import ACTIONS, SKULL_RANGE
 
 FILE = Path(__file__).parent / "expert.npz"
 PHASES = 2 * len(SKULL_RANGE)
+X, KEY = 0, 7  # columns of `Table.nodes`
 # How much a difference in each number of a node counts, in the search for the most similar node.
 _WEIGHTS = np.array([4, 4, 8, 2, 0.1, 0.01, 0.5, 1_000])
 
@@ -29,28 +31,34 @@ class Table:
     best: NDArray[np.uint8]  # [2, nodes, phases], the best of the good actions
     by_stair: NDArray[np.bool_]  # [nodes, phases], whether the best way to the key or the door passes the stair
 
-    def __post_init__(self) -> None:
-        """Prepare the search for nodes."""
-        object.__setattr__(self, "_places", {bytes(node): place for place, node in enumerate(self.nodes)})
-
     def find(self, state: Any) -> tuple[int, int]:
         """Return the node and the phase of a state, given by its JSON view.
 
         About one state in a thousand of random play is not in the table; then the most similar node is returned.
         """
-        return self._node(bytes([state["x"], state["y"], *state["motion"], state["key"]])), phase_of(*state["skull"])
+        node = node_of(state["x"], state["y"], state["motion"], state["key"])
+        return self._place(node), phase_of(*state["skull"])
 
     def actions(self, leg: int, node: int, phase: int) -> list[int]:
         """Return the good actions, the best one first."""
         bits, best = int(self.good[leg, node, phase]), int(self.best[leg, node, phase])
         return sorted((a for a in range(len(ACTIONS)) if bits >> a & 1), key=lambda action: action != best)
 
-    def _node(self, wanted: bytes) -> int:
-        places: dict[bytes, int] = self._places  # type: ignore[attr-defined]
-        if wanted not in places:
+    @cached_property
+    def _places(self) -> dict[bytes, int]:
+        """The place of each node in the table; the search for a similar node adds what it finds."""
+        return {bytes(node): place for place, node in enumerate(self.nodes)}
+
+    def _place(self, wanted: bytes) -> int:
+        if wanted not in self._places:
             differences = np.abs(self.nodes.astype(int) - np.frombuffer(wanted, np.uint8).astype(int))
-            places[wanted] = int((differences @ _WEIGHTS).argmin())
-        return places[wanted]
+            self._places[wanted] = int((differences @ _WEIGHTS).argmin())
+        return self._places[wanted]
+
+
+def node_of(x: int, y: int, motion: Sequence[int], key: bool) -> bytes:
+    """Return the node of a state: one byte for each of its numbers."""
+    return bytes([x, y, *motion, key])
 
 
 def phase_of(x: int, direction: int) -> int:
@@ -78,4 +86,5 @@ def read(file: Path) -> Table:
 
 def write(file: Path, table: Table) -> None:
     """Write a table to a file."""
-    np.savez_compressed(file, nodes=table.nodes, good=table.good, best=table.best, by_stair=table.by_stair)
+    with file.open("wb") as out:  # given a name, numpy would add an ending to it
+        np.savez_compressed(out, nodes=table.nodes, good=table.good, best=table.best, by_stair=table.by_stair)

@@ -23,7 +23,8 @@ def build(file: Path, progress: Progress) -> None:
 
     Beside the file, what was measured is kept until the end, so that an interrupted command continues there.
     """
-    kept_graph, kept_measured = file.with_suffix(".graph.npz"), file.with_suffix(".skull.npz")
+    file.parent.mkdir(parents=True, exist_ok=True)  # not only after minutes
+    kept_graph, kept_measured = (file.with_name(f"{file.name}.{part}.npz") for part in ("graph", "skull"))
     if kept_graph.exists():
         graph = _read_graph(kept_graph)
     else:
@@ -70,5 +71,5 @@ def _read_measured(file: Path) -> dict[int, Deadly]:
 def _write(file: Path, **arrays: np.ndarray) -> None:
     """Write arrays to a file at once, so that an interruption leaves no half of it."""
     temporary = file.with_suffix(".tmp.npz")
-    np.savez(temporary, **arrays)  # type: ignore[arg-type]  # numpy's stub takes the arrays for other arguments
+    np.savez(temporary, allow_pickle=False, **arrays)
     temporary.replace(file)

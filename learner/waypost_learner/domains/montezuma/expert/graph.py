@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from waypost_learner.domains.montezuma.game import ACTIONS, DOOR_REWARD, SKULL_RANGE, Game, Memory
 from waypost_learner.domains.montezuma.landmarks import STAIR, small
+from waypost_learner.domains.montezuma.table import node_of
 
 DIES, OPENS_DOOR = -1, -2
 _MIDDLE = 77  # the figure's x in the middle of the room
@@ -30,16 +31,11 @@ class Graph:
     snapshots: dict[int, bytes]  # of the emulator, in the nodes near the floor without the key
 
 
-def node_of(memory: Memory) -> bytes:
-    """Return the node of a state."""
-    return bytes([memory.x, memory.y, *memory.motion, memory.key])
-
-
 def explore(progress: Progress) -> Graph:
     """Return the graph of all nodes that can be reached from the start."""
     game = Game()
     empty = small(game.grey())
-    nodes, snapshots, at_stair = [node_of(game.memory())], [game.snapshot()], [False]
+    nodes, snapshots, at_stair = [_node(game.memory())], [game.snapshot()], [False]
     places, near_floor, after = {nodes[0]: 0}, list[int](), list[list[int]]()
     while len(after) < len(nodes):
         here, following = snapshots[len(after)], list[int]()
@@ -47,7 +43,7 @@ def explore(progress: Progress) -> Graph:
             game.restore(here)
             keep_skull_away(game)
             reward, memory = game.act(action), game.memory()
-            node = node_of(memory)
+            node = _node(memory)
             if memory.dying or reward == DOOR_REWARD:
                 following.append(DIES if memory.dying else OPENS_DOOR)
                 continue
@@ -64,6 +60,10 @@ def explore(progress: Progress) -> Graph:
     table = np.frombuffer(b"".join(nodes), np.uint8).reshape(len(nodes), -1)
     kept = {place: snapshots[place] for place in near_floor}
     return Graph(table, np.array(at_stair), np.array(after, np.int32), kept)
+
+
+def _node(memory: Memory) -> bytes:
+    return node_of(memory.x, memory.y, memory.motion, memory.key)
 
 
 def keep_skull_away(game: Game) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from waypost_learner.domains.montezuma.expert.collisions import Deadly
 from waypost_learner.domains.montezuma.expert.graph import OPENS_DOOR, Graph
 from waypost_learner.domains.montezuma.game import ACTIONS
-from waypost_learner.domains.montezuma.table import PHASES, Table
+from waypost_learner.domains.montezuma.table import KEY, PHASES, Table
 
 _DISCOUNT = 0.999  # per step
 _SLIPS = 0.05
@@ -24,7 +24,6 @@ _TOLERANCE = 0.5
 _PREFERRED = [
     ACTIONS.index(name) for name in ("right", "left", "up", "down", "noop", "jump_right", "jump_left", "jump")
 ]
-_KEY = 7
 
 Values = NDArray[np.float32]
 
@@ -46,7 +45,7 @@ class _Leg:
 
 def plan(graph: Graph, deadly: Deadly) -> Table:
     """Return the table of good actions."""
-    with_key = graph.nodes[:, _KEY] > 0
+    with_key = graph.nodes[:, KEY] > 0
     nothing = np.zeros((len(graph.nodes), PHASES), np.float32)
     door = _leg(graph, deadly, with_key, ~with_key, nothing, opening=1)
     to_door = _solved(graph, door)
