@@ -42,7 +42,7 @@ def figures(
     archives: Annotated[
         list[Path] | None, typer.Option("--from", help="A folder that contains runs.csv.gz; can be repeated.")
     ] = None,
-    figure: Annotated[str, typer.Option(help="A figure (maze or lean), or one group of a figure.")] = "maze",
+    figure: Annotated[str, typer.Option(help="A figure (maze, lean or montezuma), or one group of it.")] = "maze",
     seeds: SeedsOption = "0,1,2,3,4",
     out: Annotated[Path, typer.Option(help="The folder for figures and tables.")] = Path("docs/results"),
     report: Annotated[Path | None, typer.Option(help="Write a Markdown document with all figures and tables.")] = None,
@@ -83,7 +83,7 @@ def figures(
 
 @app.command()
 def sweep(
-    figure: Annotated[str, typer.Option(help="A figure (maze or lean), or one group of a figure.")] = "maze",
+    figure: Annotated[str, typer.Option(help="A figure (maze, lean or montezuma), or one group of it.")] = "maze",
     seeds: SeedsOption = "0,1,2,3,4",
     store: Annotated[
         Path | None, typer.Option("--store", help="An SQLite file; it is created if it does not exist.")

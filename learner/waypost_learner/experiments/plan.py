@@ -6,6 +6,7 @@ The plan contains only configurations, so drawing figures does not import any al
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import zip_longest
+from typing import Any
 
 from waypost_learner.runs.config import TrainConfig
 
@@ -41,6 +42,7 @@ class Group:
         hybrid: whether actions are learned by reinforcement. Success is then shown over LO samples instead of cost.
         lean: whether the group compares variants of the preset `lean`. Its tables use fewer episodes, and its cost
             axis is logarithmic.
+        tests: the instances of the test episodes.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Group:
     labels_only: bool = False
     hybrid: bool = False
     lean: bool = False
+    tests: str = "unseen mazes"
 
 
 def _imitation(instances: str, redraw: bool, *algorithms: str) -> tuple[Series, ...]:
@@ -214,15 +217,35 @@ _LEAN = (
     ),
 )
 
-GROUPS = {group.name: group for group in (*_MAZE, *_LEAN)}
+_ROOM = TrainConfig("hg-dagger-q", domain="montezuma", episodes=660)  # fewer than 100,000 LO samples
+
+
+def _room(label: str, algorithm: str, **more: Any) -> Series:
+    return Series(replace(_ROOM, algorithm=algorithm, **more), label)
+
+
+_MONTEZUMA = (
+    Group(
+        "montezuma-hybrid",
+        "the first room of Montezuma's Revenge, actions learned by reinforcement",
+        "Tests: the 20 starts, on which the learner also trained. LO samples: the learner's steps in training.",
+        ("progress-by-subgoal", "reward-by-sample", "success-by-sample", "hi-labels"),
+        (_room("hg-DAgger/Q", "hg-dagger-q"), _room("h-DQN", "h-dqn")),
+        hybrid=True,
+        tests="the 20 starts",
+    ),
+)
+
+GROUPS = {group.name: group for group in (*_MAZE, *_LEAN, *_MONTEZUMA)}
 """Every group by its name."""
 
 FIGURES = {
     "maze": tuple(group.name for group in _MAZE),
     "lean": tuple(group.name for group in _LEAN),
+    "montezuma": tuple(group.name for group in _MONTEZUMA),
     **{name: (name,) for name in GROUPS},
 }
-"""The groups of every value of `--figure`: `maze` (the paper's maze section), `lean`, or the name of one group."""
+"""The groups of every value of `--figure`: `maze` and `montezuma` (sections of the paper), `lean`, or one group."""
 
 
 def find_figure(name: str) -> list[Group]:

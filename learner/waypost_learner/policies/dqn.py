@@ -101,7 +101,9 @@ class QFunction:
 
     @property
     def epsilon(self) -> float:
-        """The current probability of a random choice in training."""
+        """The current probability of a random choice in training; 0 while there are no updates, as in `mastered`."""
+        if self.mastered:
+            return 0.0
         steps, values = zip(*self.spec.epsilon, strict=True)
         return float(np.interp(float(self.steps), steps, values))
 

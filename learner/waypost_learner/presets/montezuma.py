@@ -7,6 +7,7 @@ from waypost_learner.policies.dqn import DqnSpec
 from waypost_learner.policies.imitation import TrainSpec
 from waypost_learner.policies.networks import Convolution, NetworkSpec
 from waypost_learner.presets.base import Preset, Training
+from waypost_learner.presets.monitoring import Monitoring
 from waypost_learner.rollout.experience import PseudoReward
 from waypost_learner.rollout.rollout import RolloutSpec, SelectionSpec
 
@@ -26,11 +27,13 @@ LEAN = Preset(
         train_hi_hybrid=_SMALL,
         dqn=DqnSpec(
             batch=32,
+            update_every=2,
             discount=0.99,
             ahead=10,
             target_every=500,
             least=500,
-            epsilon=((0, 0.3), (5_000, 0.02)),
+            # One random action can be the figure's death, so attempts succeed often only if such actions are rare.
+            epsilon=((0, 0.3), (3_000, 0.05), (8_000, 0.01), (12_000, 0.002)),
             pseudo=PseudoReward(reached=1.0, failed=-0.5, step=0.0),
             stop_above=0.9,
             margin=0.2,
@@ -40,6 +43,7 @@ LEAN = Preset(
     ),
     use=DomainUse(views=True),
     warm_start_hybrid=10,
+    monitoring=Monitoring(share=0.05),
 )
 
 PAPER = Preset(

@@ -36,6 +36,7 @@ class Simulator:
         self.ended = True
         self.steps = 0  # since the reset, without the head start
         self.reward = 0.0  # of the last step
+        self.total_reward = 0.0  # since the reset, without the head start
         self.final = False  # whether the episode ended for another reason than the time limit
         self._env = domain.make_env()
 
@@ -49,7 +50,7 @@ class Simulator:
         state = self._state(observation)
         for action in self._head_start(instance) if self._head_start else ():
             state = self.step(action)
-        self.steps = 0
+        self.steps, self.total_reward = 0, 0.0
         return state
 
     def step(self, action: Action) -> State:
@@ -57,7 +58,7 @@ class Simulator:
 
         Raises:
             RuntimeError: the episode has ended.
-        DomainFailed: the domain's code failed; the message says where.
+            DomainFailed: the domain's code failed; the message says where.
         """
         if self.ended:
             raise RuntimeError("the episode has ended: call reset() before the next step()")
@@ -67,6 +68,7 @@ class Simulator:
             raise self._failed("step", error) from error
         self.reward, self.final, self.ended = float(reward), terminated, terminated or truncated
         self.steps += 1
+        self.total_reward += self.reward
         return self._state(observation)
 
     def restore(self, state: State) -> None:

@@ -65,6 +65,7 @@ class OpenEpisode:
     generator: Generator[Query, Any, Labels]
     steps: int = 0  # of the learner's rollout; 0 for a demonstration
     success: bool | None = None  # of the learner's rollout; None for a demonstration
+    reward: float = 0.0  # of the learner's rollout
     passed: bool | None = None  # whether what is monitored was right; None if no answer said
     ordinal: int = 0  # of the next query
     pending: int | None = None  # the query whose answer it waits for
@@ -155,6 +156,7 @@ class Driver:
         query = episode.resume(partial(next, generator))
         if s.simulator.steps:
             episode.steps, episode.success = s.simulator.steps, s.simulator.succeeded
+            episode.reward = s.simulator.total_reward
         self._ask(episode, query)
 
     def _episode(self, number: int) -> Episode:
@@ -244,6 +246,16 @@ class Driver:
         instance = self._instances.test(episode)
         run(self._learner.rollout(self._test_simulator, instance, streams.TEST, episode), self._learner.policies)
 
+    def _attempts(self, episode: OpenEpisode) -> list[wire.Attempt]:
+        """Return the attempts at subgoals from which Q-functions learned in an episode."""
+        assert episode.labels is not None
+        return [
+            wire.Attempt(subgoal=self._learner.domain.subgoals[key.subgoal], reached=segment.outcome == "reached")
+            for key, trajectory in episode.labels.experience
+            for segment in trajectory
+            if key.subgoal is not None and segment.outcome is not None
+        ]
+
     def _result(self, episode: OpenEpisode, tested: bool) -> wire.EpisodeResult:
         """Return the result of an episode, after its test if there was one."""
         now, before = time.monotonic(), self._clock
@@ -258,6 +270,8 @@ class Driver:
             test_success=self._test_simulator.succeeded if tested else None,
             train_steps=episode.steps,
             test_steps=self._test_simulator.steps if tested else 0,
+            reward=episode.reward,
+            attempts=self._attempts(episode),
             hi_labels=sizes["hi"],
             lo_labels=sizes["lo"] + sizes["flat"],
             seconds=round(now - before, 4),

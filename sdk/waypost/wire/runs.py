@@ -7,6 +7,7 @@ from pydantic import Field, JsonValue
 from waypost.wire.words import GoldRate, Kind, Message, Name, RunState, Units
 
 __all__ = [
+    "Attempt",
     "CostOfKind",
     "Costs",
     "Curves",
@@ -114,6 +115,13 @@ class RunList(Message):
     total: int = Field(description="The number of runs on all pages.")
 
 
+class Attempt(Message):
+    """A segment from whose outcome a subgoal's Q-function learns."""
+
+    subgoal: Name
+    reached: bool = Field(description="Whether the segment ended at the subgoal.")
+
+
 class EpisodeResult(Message):
     """The result of one episode, sent by the learner.
 
@@ -128,6 +136,12 @@ class EpisodeResult(Message):
     )
     train_steps: int = Field(ge=0, description="The learner's steps in the training rollout.")
     test_steps: int = Field(ge=0, description="The learner's steps in the test rollout.")
+    reward: float = Field(
+        default=0, allow_inf_nan=False, description="The sum of the environment's rewards in the training rollout."
+    )
+    attempts: list[Attempt] = Field(
+        default_factory=list, max_length=10_000, description="The attempts at subgoals, where Q-functions learn them."
+    )
     hi_labels: int = Field(ge=0, description="The size of D_HI after the episode.")
     lo_labels: int = Field(ge=0, description="The size of all D_g together (flat learner: of D) after the episode.")
     seconds: float = Field(
@@ -160,6 +174,13 @@ class Curves(Message):
     hi_labels: list[int] = Field(description="The size of D_HI.")
     lo_samples: list[int] = Field(description="The number of LO-level steps in training rollouts.")
     learner_seconds: list[float] = Field(description="The learner's wall time, in seconds.")
+    reward: list[float | None] = Field(
+        description="The mean reward of the trailing 100 training rollouts (fewer at the start); null before the first."
+    )
+    reached: dict[Name, list[float]] = Field(
+        description="By subgoal that a Q-function learns, how many of the trailing 100 attempts reached it, 0 to 1. "
+        "Attempts that were not made yet count as failed."
+    )
 
 
 class Milestone(Message):

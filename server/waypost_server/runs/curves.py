@@ -41,6 +41,30 @@ def trailing(outcomes: Sequence[bool | None], window: int = runs.TRAILING) -> li
     return rates
 
 
+def _rewards(results: Sequence[wire.EpisodeResult]) -> list[float | None]:
+    """Return the mean reward of the trailing training rollouts at each episode. Demonstrations do not count."""
+    recent: deque[float] = deque(maxlen=runs.TRAILING)
+    means: list[float | None] = []
+    for result in results:
+        if not result.warm_start:
+            recent.append(result.reward)
+        means.append(sum(recent) / len(recent) if recent else None)
+    return means
+
+
+def _reached(results: Sequence[wire.EpisodeResult]) -> dict[str, list[float]]:
+    """Return how many of the trailing attempts at each subgoal reached it, at each episode."""
+    subgoals = sorted({attempt.subgoal for result in results for attempt in result.attempts})
+    recent = {name: deque([False] * runs.TRAILING, runs.TRAILING) for name in subgoals}
+    rates: dict[str, list[float]] = {name: [] for name in subgoals}
+    for result in results:
+        for attempt in result.attempts:
+            recent[attempt.subgoal].append(attempt.reached)
+        for name, outcomes in recent.items():
+            rates[name].append(sum(outcomes) / runs.TRAILING)
+    return rates
+
+
 def _ledger(tx: Tx, run: str) -> list[Spent]:
     signed = func.sum(ledger.c.units)
     charges = func.count().filter(ledger.c.entry == "charge") - func.count().filter(ledger.c.entry == "refund")
@@ -111,6 +135,8 @@ def curves(tx: Tx, run: str, after: int = -1) -> wire.Curves:
         hi_labels=[result.hi_labels for result in results[first:]],
         lo_samples=list(accumulate(result.train_steps for result in results))[first:],
         learner_seconds=list(accumulate(result.seconds for result in results))[first:],
+        reward=_rewards(results)[first:],
+        reached={name: rates[first:] for name, rates in _reached(results).items()},
     )
 
 

@@ -33,6 +33,8 @@ def run_of(
         hi_labels=list(hi or [0] * n),
         lo_samples=[10 * (row + 1) for row in range(n)],
         learner_seconds=[0.1 * (row + 1) for row in range(n)],
+        reward=[None] * n,
+        reached={},
     )
     return RunCurves.of(config, curves)
 

@@ -29,8 +29,10 @@ from waypost import wire
 from waypost.client import Client
 from waypost_learner.cli import app
 from waypost_learner.experiments import plan
-from waypost_learner.experiments.figures import archive, look, make, tables
-from waypost_learner.experiments.figures.data import KINDS
+from waypost_learner.experiments.figures import archive, draw, look, make, measures, tables
+from waypost_learner.experiments.figures.data import KINDS, Comparison, RunCurves
+from waypost_learner.experiments.figures.published import NEVER
+from waypost_learner.experiments.figures.statistics import Spread
 from waypost_learner.experiments.figures.store import read
 from waypost_learner.remote.embedded import stored_runs
 from waypost_learner.runs.config import TrainConfig
@@ -222,6 +224,38 @@ def test_a_run_comes_back_from_the_csv_as_it_was(rows: list[tuple[Any, ...]], re
     assert archive.write(folder, [found]).read_bytes() == first
 
 
+def room(seed: int, reached: float) -> RunCurves:
+    """A run in Montezuma's Revenge, whose attempts reached the stair more and more often and the key never."""
+    n = 4
+    config = replace(plan.GROUPS["montezuma-hybrid"].series[0].config, seed=seed, episodes=n)
+    learned = {"stair": np.linspace(0, reached, n), "key": np.zeros(n)}
+    return replace(run_of(config, [False] * n), reward=np.arange(n, dtype=float), reached=learned)
+
+
+def test_the_csv_keeps_rewards_and_attempts_beside_runs_that_have_none() -> None:
+    imitating = run_of(corridor(), [True, False])
+    archive.write(Path(), [imitating, room(0, 0.95)])
+    found = archive.read(Path())
+    assert found[imitating.config].reached == {}
+    assert np.isnan(found[imitating.config].reward).all()
+    ours = found[room(0, 0.95).config]
+    np.testing.assert_array_equal(ours.reward, [0, 1, 2, 3])
+    np.testing.assert_array_equal(ours.reached["stair"], np.linspace(0, 0.95, 4))
+    np.testing.assert_array_equal(ours.reached["key"], np.zeros(4))
+
+
+def test_a_subgoal_is_learned_when_more_than_ninety_of_a_hundred_attempts_reached_it() -> None:
+    group = plan.GROUPS["montezuma-hybrid"]
+    comparison = Comparison(group, {group.series[0]: [room(0, 0.9), room(1, 0.91), room(2, 0.93)]})
+    results = {one.measure: one for one in measures.summary([comparison])}
+    stair, key = (results[f"LO samples until {subgoal} was learned"] for subgoal in ("stair", "key"))
+    assert stair.ours == Spread(40, 40, NEVER, 3)  # ten samples an episode; the first run stays at 90 of 100
+    assert key.ours == Spread(NEVER, NEVER, NEVER, 3)
+    assert stair.published == 46_259  # the median of the authors' five logs
+    assert results["total HI labels"].published == 12_218
+    assert [name for name, _ in draw.figures_of(comparison)] == [f"{group.name}-{name}" for name in group.figures]
+
+
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
@@ -319,7 +353,7 @@ def test_a_store_of_a_newer_version_is_refused(trained: Path) -> None:
         (("--server", "http://127.0.0.1:9"), "WAYPOST_TOKEN"),
         (("--from", ".", "--seeds", "1,one"), "'1,one'"),
         (("--from", ".", "--seeds", "1,1"), "different numbers"),
-        (("--from", ".", "--figure", "atari"), "the figures are: maze, lean, published"),
+        (("--from", ".", "--figure", "atari"), "the figures are: maze, lean, montezuma"),
     ],
 )
 def test_what_is_wrong_is_said_in_one_sentence(arguments: tuple[str, ...], said: str) -> None:

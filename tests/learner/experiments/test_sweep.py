@@ -174,7 +174,7 @@ def test_a_sweep_can_write_to_a_server(tmp_path: Path, token: tuple[str, str]) -
 def test_the_command_refuses_a_figure_that_does_not_exist(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["sweep", "--figure", "mazes", "--store", str(tmp_path / "a.db")])
     assert done.exit_code == 2
-    assert "the figures are: maze, lean, published" in done.output
+    assert "the figures are: maze, lean, montezuma" in done.output
     assert list(tmp_path.iterdir()) == []
 
 
@@ -209,7 +209,9 @@ def test_the_same_sweep_runs_on_a_ray_cluster(tmp_path: Path, token: tuple[str, 
 def test_runs_that_an_archive_holds_are_not_made_again(tmp_path: Path) -> None:
     there = plan.runs_of(plan.find_figure("naive"), seeds=(0,))
     numbers = np.arange(1_000.0)
-    archive.write(tmp_path, [RunCurves(config, *[numbers] * 7, dict.fromkeys(KINDS, numbers)) for config in there])
+    archive.write(
+        tmp_path, [RunCurves(config, *[numbers] * 7, dict.fromkeys(KINDS, numbers), numbers, {}) for config in there]
+    )
     command = ["sweep", "--figure", "naive", "--seeds", "0", "--from", str(tmp_path), "--store", str(tmp_path / "a.db")]
     done = CliRunner().invoke(app, [*command, "--json"])
     assert json.loads(done.stdout) == {"runs": 2, "failed": {}}

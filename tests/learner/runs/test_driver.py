@@ -349,6 +349,17 @@ def test_learning_by_reinforcement_alone_costs_nothing_and_is_tested_all_the_sam
     assert curves.lo_samples[-1] > 0
 
 
+def test_where_q_functions_learn_subgoals_every_attempt_and_reward_is_reported(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options):
+        summary = train(corridor(algorithm="h-dqn"), connection, options)
+        curves = connection.learner.curves(summary["run"])
+        flat = connection.learner.curves(train(corridor(algorithm="flat-dqn"), connection, options)["run"])
+    assert set(curves.reached) <= set(CorridorDomain().subgoals)
+    assert any(rates[-1] > 0 for rates in curves.reached.values())
+    assert any(curves.reward)
+    assert flat.reached == {}
+
+
 def test_training_instances_are_varied_where_their_set_says_so(tmp_path: Path) -> None:
     config = TrainConfig("h-bc", instances="corners", preset="tiny", episodes=3)
     with store(tmp_path) as (connection, options):

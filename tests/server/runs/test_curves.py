@@ -82,6 +82,25 @@ def test_curves_carry_what_the_learner_reported_of_itself(service: Service) -> N
     assert curves["learner_seconds"] == [1.5, 2, 2.5]
 
 
+def test_curves_show_how_often_the_last_hundred_attempts_reached_each_subgoal(service: Service) -> None:
+    run = service.learner.create_run()
+    many = [{"subgoal": "key", "reached": True}] * 99 + [{"subgoal": "door", "reached": False}]
+    once = [{"subgoal": "key", "reached": True}, {"subgoal": "key", "reached": False}]
+    report(service, run, result(0), result(1, attempts=many), result(2, attempts=once))
+    curves = service.viewer.get(f"/runs/{run}/curves")
+    assert curves["reached"] == {"key": [0, 0.99, 0.99], "door": [0, 0, 0]}
+    later = service.viewer.get(f"/runs/{run}/curves?after=0")
+    assert later["reached"] == {"key": [0.99, 0.99], "door": [0, 0]}
+
+
+def test_the_mean_reward_leaves_demonstrations_out(service: Service) -> None:
+    run = service.learner.create_run()
+    report(service, run, result(0, warm_start=True), *(result(n, reward=100.0 * n) for n in range(1, 103)))
+    rewards = service.viewer.get(f"/runs/{run}/curves")["reward"]
+    assert rewards[:3] == [None, 100, 150]
+    assert rewards[-1] == 100 * (3 + 102) / 2  # of the last hundred
+
+
 def test_the_run_shows_its_trailing_success(service: Service) -> None:
     run = service.learner.create_run()
     report(service, run, *(result(n, n >= 150) for n in range(200)), result(200, None))

@@ -1891,6 +1891,19 @@ export interface components {
             annotators: components["schemas"]["AtWork"][];
         };
         /**
+         * Attempt
+         * @description A segment from whose outcome a subgoal's Q-function learns.
+         */
+        Attempt: {
+            /** Subgoal */
+            subgoal: string;
+            /**
+             * Reached
+             * @description Whether the segment ended at the subgoal.
+             */
+            reached: boolean;
+        };
+        /**
          * Change
          * @description A server-sent event: something changed in some run.
          */
@@ -2043,6 +2056,18 @@ export interface components {
              * @description The learner's wall time, in seconds.
              */
             learner_seconds: number[];
+            /**
+             * Reward
+             * @description The mean reward of the trailing 100 training rollouts (fewer at the start); null before the first.
+             */
+            reward: (number | null)[];
+            /**
+             * Reached
+             * @description By subgoal that a Q-function learns, how many of the trailing 100 attempts reached it, 0 to 1. Attempts that were not made yet count as failed.
+             */
+            reached: {
+                [key: string]: number[];
+            };
         };
         /**
          * Delivery
@@ -2132,7 +2157,7 @@ export interface components {
          */
         EpisodeList: {
             /** Episodes */
-            episodes: components["schemas"]["EpisodeResult"][];
+            episodes: components["schemas"]["EpisodeResultInput"][];
         };
         /**
          * EpisodeRecord
@@ -2150,6 +2175,70 @@ export interface components {
              * @description When it was reported, in seconds since the epoch.
              */
             at: number;
+        };
+        /**
+         * EpisodeResult
+         * @description The result of one episode, sent by the learner.
+         *
+         *     Sending it again changes nothing, if all fields except `seconds` are the same.
+         */
+        EpisodeResultInput: {
+            /**
+             * Episode
+             * @description The number of the episode, from 0.
+             */
+            episode: number;
+            /**
+             * Warm Start
+             * @description Whether the episode was a demonstration instead of a rollout.
+             */
+            warm_start: boolean;
+            /**
+             * Train Success
+             * @description Whether the training rollout succeeded; null for a demonstration.
+             */
+            train_success: boolean | null;
+            /**
+             * Test Success
+             * @description Whether the test rollout on an unseen instance succeeded; null if there was none.
+             */
+            test_success: boolean | null;
+            /**
+             * Train Steps
+             * @description The learner's steps in the training rollout.
+             */
+            train_steps: number;
+            /**
+             * Test Steps
+             * @description The learner's steps in the test rollout.
+             */
+            test_steps: number;
+            /**
+             * Reward
+             * @description The sum of the environment's rewards in the training rollout.
+             * @default 0
+             */
+            reward: number;
+            /**
+             * Attempts
+             * @description The attempts at subgoals, where Q-functions learn them.
+             */
+            attempts?: components["schemas"]["Attempt"][];
+            /**
+             * Hi Labels
+             * @description The size of D_HI after the episode.
+             */
+            hi_labels: number;
+            /**
+             * Lo Labels
+             * @description The size of all D_g together (flat learner: of D) after the episode.
+             */
+            lo_labels: number;
+            /**
+             * Seconds
+             * @description The learner's wall time for the episode, in seconds.
+             */
+            seconds: number;
         };
         /**
          * EpisodeResult
@@ -2188,6 +2277,17 @@ export interface components {
              * @description The learner's steps in the test rollout.
              */
             test_steps: number;
+            /**
+             * Reward
+             * @description The sum of the environment's rewards in the training rollout.
+             * @default 0
+             */
+            reward: number;
+            /**
+             * Attempts
+             * @description The attempts at subgoals, where Q-functions learn them.
+             */
+            attempts: components["schemas"]["Attempt"][];
             /**
              * Hi Labels
              * @description The size of D_HI after the episode.

@@ -19,17 +19,25 @@ FILE = "runs.csv.gz"
 _CONFIG = tuple(field.name for field in fields(TrainConfig))
 _CURVES = ("episode", "test_success", "success_rate", "hi_labels", "lo_samples", "learner_seconds", "lo_cost")
 COLUMNS = (*_CONFIG, *_CURVES, *KINDS)
-"""The configuration, the learner's reports, and the cost in units by kind of query. Missing values are empty fields."""
+"""The configuration, the learner's reports, and the cost in units by kind of query. Missing values are empty fields.
+
+Runs with subgoals that Q-functions learn have two kinds of columns more: `reward`, and `reached SUBGOAL` by subgoal.
+"""
+_REWARD, _REACHED = "reward", "reached "
 
 
 def write(folder: Path, runs: Iterable[RunCurves]) -> Path:
     """Write `runs.csv.gz` into `folder` and return its path. The same runs give the same file."""
-    text = io.StringIO()
+    text, runs = io.StringIO(), list(runs)
+    subgoals = sorted({subgoal for run in runs for subgoal in run.reached})
     rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(COLUMNS)
+    rows.writerow([*COLUMNS, *([_REWARD] if subgoals else []), *(f"{_REACHED}{subgoal}" for subgoal in subgoals)])
     for run in runs:
         config = [_written(getattr(run.config, name)) for name in _CONFIG]
         numbers = [*(getattr(run, name) for name in _CURVES), *(run.units[kind] for kind in KINDS)]
+        if subgoals:
+            unknown = np.full(len(run.episode), np.nan)
+            numbers += [run.reward, *(run.reached.get(subgoal, unknown) for subgoal in subgoals)]
         rows.writerows([*config, *map(_number, row)] for row in zip(*numbers, strict=True))
     path = folder / FILE
     with path.open("wb") as file, gzip.GzipFile("", "wb", 9, file, mtime=0) as packed:  # without name and time
@@ -58,7 +66,8 @@ def read(folder: Path) -> dict[TrainConfig, RunCurves]:
 
 
 def _check_header(path: Path, header: list[str]) -> None:
-    unknown = [name for name in header if name not in COLUMNS]
+    known = {*COLUMNS, _REWARD, *(name for name in header if name.startswith(_REACHED))}
+    unknown = [name for name in header if name not in known]
     if unknown:  # a newer version may have added a configuration value: ignoring it would merge different runs
         raise ValueError(f"{path} has a column {unknown[0]!r}, which this version of Waypost does not know")
     lacking = [name for name in (*_CURVES, *KINDS, "algorithm") if name not in header]
@@ -89,7 +98,14 @@ def _curves(config: TrainConfig, rows: list[Mapping[str, float]]) -> RunCurves:
         return np.array([row[name] for row in rows], np.float64)
 
     curves = {name: column(name) for name in _CURVES}
-    return RunCurves(config=config, **curves, units={kind: column(kind) for kind in KINDS})
+    reached = {name.removeprefix(_REACHED): column(name) for name in rows[0] if name.startswith(_REACHED)}
+    return RunCurves(
+        config=config,
+        **curves,
+        units={kind: column(kind) for kind in KINDS},
+        reward=column(_REWARD) if _REWARD in rows[0] else np.full(len(rows), np.nan),
+        reached={subgoal: rates for subgoal, rates in reached.items() if not np.isnan(rates).all()},
+    )
 
 
 # --- values as text

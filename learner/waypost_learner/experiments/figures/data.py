@@ -32,6 +32,8 @@ class RunCurves:
         learner_seconds: the learner's wall time in seconds, rounded to a tenth.
         lo_cost: cost of LO labels in units, including those of demonstrations.
         units: cost in units, by kind of query.
+        reward: mean reward of the trailing 100 training rollouts (fewer at the start); nan if it is not known.
+        reached: by subgoal that a Q-function learns, how many of the trailing 100 attempts reached it, 0 to 1.
     """
 
     config: TrainConfig
@@ -43,6 +45,8 @@ class RunCurves:
     learner_seconds: Column
     lo_cost: Column
     units: Mapping[Kind, Column]
+    reward: Column
+    reached: Mapping[str, Column]
 
     @classmethod
     def of(cls, config: TrainConfig, curves: wire.Curves) -> "RunCurves":
@@ -57,6 +61,8 @@ class RunCurves:
             learner_seconds=_column([round(seconds, 1) for seconds in curves.learner_seconds]),
             lo_cost=_column(curves.lo_cost),
             units={kind: _column(curves.cost_by_kind[kind]) for kind in KINDS},
+            reward=_column(curves.reward),
+            reached={subgoal: _column(rates) for subgoal, rates in curves.reached.items()},
         )
 
     @property

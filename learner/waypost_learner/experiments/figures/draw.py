@@ -1,16 +1,19 @@
 """Draws the figures, one function each. Lines and bands show our runs, markers show published numbers."""
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from waypost_learner.experiments.figures import look
 from waypost_learner.experiments.figures.data import KINDS, Column, Comparison, RunCurves
 from waypost_learner.experiments.figures.look import count_axis, curve, frame, legend, percent_axis, point
-from waypost_learner.experiments.figures.published import NEVER, Published, published
+from waypost_learner.experiments.figures.published import NEVER, SUBGOALS, Published, author_logs, published
 from waypost_learner.experiments.figures.statistics import Track
 from waypost_learner.experiments.plan import Series
 
@@ -112,6 +115,53 @@ def success_by_sample(comparison: Comparison) -> Figure:
     return figure
 
 
+def progress_by_subgoal(comparison: Comparison) -> Figure:
+    """Draw how often the first series reached each subgoal, against LO samples, beside the authors' five runs."""
+    series, runs = _first(comparison)
+    figure, (axes,) = frame(comparison, f"{series.label}: progress by subgoal")
+    entries = []
+    for subgoal, color in zip(SUBGOALS, look.OF_SUBGOALS, strict=True):
+        ours, theirs = replace(look.style_of(series), color=color), replace(look.AUTHORS, color=color)
+        learned = [run for run in runs if subgoal in run.reached]
+        curve(axes, [Track(run.lo_samples, 100 * run.reached[subgoal], run.complete) for run in learned], ours)
+        curve(axes, [Track(log.lo_samples, 100 * log.reached[subgoal], over=True) for log in author_logs()], theirs)
+        entries.append((subgoal.replace("_", " "), ours))
+    percent_axis(axes, "Attempts that reached the subgoal (trailing 100)")
+    look.log_axis(axes.xaxis, "LO samples (logarithmic)")
+    axes.set_xlim(left=1_000)
+    entries.append(("the authors' runs", look.AUTHORS))
+    legend(figure, entries, "Solid: our runs. Dashed: the authors' five runs, from their logs.", markers=False)
+    return figure
+
+
+def reward_by_sample(comparison: Comparison) -> Figure:
+    """Draw the mean reward of training rollouts against LO samples."""
+    figure, (axes,) = frame(comparison, "Reward against LO samples")
+    for series, runs in comparison.runs.items():
+        curve(axes, [Track(run.lo_samples, run.reward, run.complete) for run in runs], look.style_of(series))
+    count_axis(axes.yaxis, "Reward of training rollouts (mean of the trailing 100)")
+    count_axis(axes.xaxis, "LO samples")
+    _close(figure, comparison, _LINES)
+    return figure
+
+
+def hi_labels(comparison: Comparison) -> Figure:
+    """Draw a histogram of the first series' HI labels at the end, beside those of the authors' five runs."""
+    series, runs = _first(comparison)
+    figure, (axes,) = frame(comparison, f"{series.label}: HI labels of whole runs")
+    ours, theirs = [run.hi_labels[-1] for run in runs], [log.hi_labels for log in author_logs()]
+    style = look.style_of(series)
+    bins = np.geomspace(100, 100_000, 31).tolist()
+    axes.hist(ours, bins, color=style.color)
+    axes.hist(theirs, bins, color=look.AUTHORS.color, hatch="//", edgecolor="white")
+    look.log_axis(axes.xaxis, "HI labels (logarithmic)")
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True))
+    count_axis(axes.yaxis, "Runs")
+    explanation = "The authors' runs ended when the door was reached in 91 of 100 attempts."
+    legend(figure, [(series.label, style), ("the authors' runs", look.AUTHORS)], explanation, markers=False)
+    return figure
+
+
 FIGURES: dict[str, Callable[[Comparison], Figure]] = {
     "success-by-episode": success_by_episode,
     "success-by-cost": success_by_cost,
@@ -121,10 +171,14 @@ FIGURES: dict[str, Callable[[Comparison], Figure]] = {
     "lo-cost-by-episode": lo_cost_by_episode,
     "progress-by-sample": progress_by_sample,
     "success-by-sample": success_by_sample,
+    "progress-by-subgoal": progress_by_subgoal,
+    "reward-by-sample": reward_by_sample,
+    "hi-labels": hi_labels,
 }
 """The drawing functions, by the figure names in `plan.Group.figures`."""
 
-_OF_THE_FIRST = frozenset({"cost-by-kind", "progress-by-sample"})  # these figures show only a group's first series
+# These figures show only a group's first series.
+_OF_THE_FIRST = frozenset({"cost-by-kind", "progress-by-sample", "progress-by-subgoal", "hi-labels"})
 
 
 def figures_of(comparison: Comparison) -> Iterator[tuple[str, Figure]]:
@@ -170,7 +224,7 @@ def _success_curves(axes: Axes, comparison: Comparison, x: Value, points: Points
         for at, success in points(published(comparison.group, series)):
             point(axes, at, 100 * success, style, f"{series.label} {at:g} {100 * success:g}%")
             marked = True
-    percent_axis(axes, "Success on unseen mazes (trailing 100)")
+    percent_axis(axes, f"Success on {comparison.group.tests} (trailing 100)")
     return marked
 
 

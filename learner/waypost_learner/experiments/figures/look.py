@@ -57,6 +57,10 @@ _ALGORITHMS = {
 }
 _WITH_HEAD_START = Style(_GREEN, _DASH_DOT, "^")
 _WITH_OTHER_VALUES = {"hg-dagger": Style(_SKY, _LONG, "P"), "hg-stagger": Style(_ORANGE, _DASH_DOT, "v")}
+OF_SUBGOALS = (_ORANGE, _BLUE, _GREEN, _PURPLE)
+"""The colors of the subgoals of Montezuma's Revenge, in their order."""
+AUTHORS = Style(_BLACK, _DASHED, "s")
+"""The authors' runs."""
 _BESIDE = Style(_BLACK, _DASHED, "o")
 
 KINDS: dict[Kind, tuple[str, Style]] = {

@@ -7,7 +7,15 @@ from typing import Literal
 import numpy as np
 
 from waypost_learner.experiments.figures.data import Column, Comparison, RunCurves
-from waypost_learner.experiments.figures.published import EPISODES, LEVELS, NEVER, Published, published
+from waypost_learner.experiments.figures.published import (
+    EPISODES,
+    LEVELS,
+    MASTERED,
+    NEVER,
+    SUBGOALS,
+    Published,
+    published,
+)
 from waypost_learner.experiments.figures.statistics import Spread, Track, first_at, spread
 
 Unit = Literal["%", "units", "hours", "minutes", "samples", "labels", "labels per 1,000 samples", ""]
@@ -60,6 +68,8 @@ def topics(comparison: Comparison) -> tuple[Topic, ...]:
     """Return the tables of a group."""
     if comparison.group.lean:
         return _LEAN
+    if any(run.reached for runs in comparison.runs.values() for run in runs):
+        return _BY_SUBGOAL
     return _HYBRID if comparison.group.hybrid else _IMITATION
 
 
@@ -83,6 +93,12 @@ def at_level(run: RunCurves, level: float, column: Column) -> float:
     if row is None:
         return NEVER if run.complete else UNKNOWN
     return float(column[row])
+
+
+def samples_until_learned(run: RunCurves, subgoal: str) -> float:
+    """Return the LO samples when a subgoal was learned; infinite if a complete run never learned it."""
+    learned = np.flatnonzero(run.reached[subgoal] > MASTERED) if subgoal in run.reached else np.array([], int)
+    return float(run.lo_samples[learned[0]]) if len(learned) else NEVER if run.complete else UNKNOWN
 
 
 def late_share(run: RunCurves, column: Column) -> float:
@@ -129,6 +145,7 @@ def _percent(share: float | None) -> float | None:
 
 
 _HOURS = Measure("learner's wall time, hours", "hours", lambda run, _: at_end(run, run.learner_seconds) / 3600)
+_MINUTES = Measure("learner's wall time, minutes", "minutes", lambda run, _: at_end(run, run.learner_seconds) / 60)
 
 _IMITATION = (
     Topic("Success on unseen mazes", tuple(_success(episodes) for episodes in EPISODES)),
@@ -172,31 +189,38 @@ _LEAN = (
             *(_success(episodes) for episodes in (100, 200, 300)),
             *(_cost_at(level) for level in (0.8, 0.95, 0.99)),
             Measure("total expert cost", "units", lambda run, labels: at_end(run, run.cost(labels))),
-            Measure("learner's wall time, minutes", "minutes", lambda run, _: at_end(run, run.learner_seconds) / 60),
+            _MINUTES,
         ),
     ),
 )
+
+_AT_END = Measure(
+    "success at the end",
+    "%",
+    lambda run, _: 100 * at_end(run, run.success_rate),
+    lambda known: _percent(known.final),
+)
+_TOTAL_SAMPLES = Measure("total LO samples", "samples", lambda run, _: at_end(run, run.lo_samples))
+_TOTAL_HI_LABELS = Measure(
+    "total HI labels", "labels", lambda run, _: at_end(run, run.hi_labels), lambda known: known.hi_labels
+)
+_TOTAL_COST = Measure("total expert cost, with inspections", "units", lambda run, labels: at_end(run, run.cost(labels)))
 
 _HYBRID = (
     Topic(
         "Success on unseen mazes",
         (
-            Measure(
-                "success at the end",
-                "%",
-                lambda run, _: 100 * at_end(run, run.success_rate),
-                lambda known: _percent(known.final),
-            ),
+            _AT_END,
             Measure("episodes when 90% was reached", "", lambda run, _: at_level(run, 0.9, run.episodes)),
             Measure("LO samples when 90% was reached", "samples", lambda run, _: at_level(run, 0.9, run.lo_samples)),
-            Measure("total LO samples", "samples", lambda run, _: at_end(run, run.lo_samples)),
+            _TOTAL_SAMPLES,
             _HOURS,
         ),
     ),
     Topic(
         "HI labels",
         (
-            Measure("total HI labels", "labels", lambda run, _: at_end(run, run.hi_labels)),
+            _TOTAL_HI_LABELS,
             Measure(
                 "HI labels per 1,000 LO samples, first fifth",
                 "labels per 1,000 samples",
@@ -207,9 +231,36 @@ _HYBRID = (
                 "labels per 1,000 samples",
                 lambda run, _: labels_per_thousand_samples(run, 0.8, 1.0),
             ),
-            Measure("total expert cost, with inspections", "units", lambda run, labels: at_end(run, run.cost(labels))),
+            _TOTAL_COST,
         ),
     ),
+)
+
+
+def _learned(subgoal: str) -> Measure:
+    return Measure(
+        f"LO samples until {subgoal.replace('_', ' ')} was learned",
+        "samples",
+        lambda run, _: samples_until_learned(run, subgoal),
+        lambda known: known.samples.get(subgoal),
+    )
+
+
+def _attempts(subgoal: str) -> Measure:
+    return Measure(
+        f"last 100 attempts at {subgoal.replace('_', ' ')}",
+        "%",
+        lambda run, _: 100 * at_end(run, run.reached[subgoal]) if subgoal in run.reached else 0.0,
+    )
+
+
+_BY_SUBGOAL = (
+    Topic(
+        "LO samples until more than 90 of the trailing 100 attempts reached a subgoal",
+        (*map(_learned, SUBGOALS), _TOTAL_SAMPLES),
+    ),
+    Topic("Success at the end", (_AT_END, *map(_attempts, SUBGOALS))),
+    Topic("Cost", (_TOTAL_HI_LABELS, _TOTAL_COST, _MINUTES)),
 )
 
 

@@ -1,17 +1,29 @@
-"""Contains the published numbers of the maze experiments.
+"""Contains the published numbers of the experiments.
 
-They are medians of five runs on corner mazes. We read them from the plots of Le et al. 2018 (figure "Maze navigation:
-hierarchical versus flat imitation learning") and of the authors' own experiments, with an accuracy of about one
-percentage point and 500 units. Their costs include only labels. Their episodes exclude training rollouts that
+Those of Montezuma's Revenge are in `montezuma_authors.csv`: about 70 rows of the log of each of the authors' five runs.
+A run ended when it had reached the door in 91 of the last 100 attempts.
+
+Those of the maze are medians of five runs on corner mazes. We read them from the plots of Le et al. 2018 (figure "Maze
+navigation: hierarchical versus flat imitation learning") and of the authors' own experiments, with an accuracy of about
+one percentage point and 500 units. Their costs include only labels. Their episodes exclude training rollouts that
 succeeded at once.
 """
 
-from collections.abc import Mapping
+import csv
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
+from itertools import groupby
+from pathlib import Path
 
+import numpy as np
+
+from waypost_learner.experiments.figures.data import Column
 from waypost_learner.experiments.plan import Group, Series
 
 NEVER = float("inf")
+SUBGOALS = ("stair", "key", "stair_back", "door")  # of Montezuma's Revenge
+MASTERED = 0.9  # a subgoal is learned when more than this share of the trailing 100 attempts reached it
 EPISODES = (270, 500, 600, 1_000)  # success is compared after these episodes
 LEVELS = (0.8, 0.95)  # the cost to reach these success rates is compared
 
@@ -26,6 +38,8 @@ class Published:
         cost_at: expert cost in units when a success rate was first reached; infinite if it never was.
         lo_only: whether all its labels are LO-level labels. Then its LO-level cost equals its cost.
         final: the success rate at the end, 0 to 1.
+        samples: by subgoal, the LO samples when it was learned.
+        hi_labels: the number of HI labels at the end.
     """
 
     success: Mapping[int, float] = field(default_factory=dict)
@@ -33,6 +47,8 @@ class Published:
     cost_at: Mapping[float, float] = field(default_factory=dict)
     lo_only: bool = False
     final: float | None = None
+    samples: Mapping[str, float] = field(default_factory=dict)
+    hi_labels: float | None = None
 
 
 def _curve(success: tuple[float, ...], cost: float, at: tuple[float, float], lo_only: bool = False) -> Published:
@@ -51,9 +67,54 @@ _H_DQN_WITH_HEAD_START = Published(final=0.30)  # "flattens out at 30% success r
 _H_DQN = Published(final=0.0)  # "we were not able to achieve non-zero rewards" (appendix)
 
 
+@dataclass(frozen=True, eq=False)
+class AuthorLog:
+    """One of the authors' runs of hg-DAgger/Q on Montezuma's Revenge. Arrays are float64[rows].
+
+    Args:
+        lo_samples: the learner's own steps.
+        reached: by subgoal, how many of the trailing 100 attempts reached it, 0 to 1.
+        hi_labels: the number of HI labels at the end.
+    """
+
+    lo_samples: Column
+    reached: Mapping[str, Column]
+    hi_labels: float
+
+    def samples(self, subgoal: str) -> float:
+        """Return the LO samples when the subgoal was learned."""
+        return float(self.lo_samples[np.argmax(self.reached[subgoal] > MASTERED)])
+
+
+@cache
+def author_logs() -> Sequence[AuthorLog]:
+    """Return the authors' five runs on Montezuma's Revenge."""
+    with (Path(__file__).parent / "montezuma_authors.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return [_log(list(of)) for _, of in groupby(rows, lambda row: row["run"])]
+
+
+def _log(rows: Sequence[Mapping[str, str]]) -> AuthorLog:
+    def column(name: str) -> Column:
+        return np.array([float(row[name]) for row in rows])
+
+    reached = {subgoal: column(subgoal) for subgoal in SUBGOALS}
+    return AuthorLog(column("lo_samples"), reached, float(rows[-1]["hi_labels"]))
+
+
+@cache
+def _montezuma() -> Published:
+    """Return the medians of the authors' logs."""
+    logs = author_logs()
+    samples = {subgoal: float(np.median([log.samples(subgoal) for log in logs])) for subgoal in SUBGOALS}
+    return Published(samples=samples, hi_labels=float(np.median([log.hi_labels for log in logs])))
+
+
 def published(group: Group, series: Series) -> Published:
     """Return the published numbers of a series; empty ones if its group counts differently from the authors."""
     algorithm = series.config.algorithm
+    if series.config.domain == "montezuma":
+        return _montezuma() if algorithm == "hg-dagger-q" else Published()
     if group.labels_only:
         return _IMITATION.get(algorithm, Published())
     if group.hybrid and algorithm == "h-dqn":

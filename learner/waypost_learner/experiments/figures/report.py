@@ -9,10 +9,11 @@ from waypost_learner.experiments.figures.data import Comparison
 
 _INTRODUCTION = """\
 `waypost figures` writes this document; do not edit it. Our numbers are medians over runs that differ only in the seed,
-with the range in parentheses. Published numbers are medians of five runs, read from the authors' plots
+with the range in parentheses. Published numbers are medians of five runs, read from the authors' plots and logs
 (`learner/waypost_learner/experiments/figures/published.py`). Success is the success rate over the trailing 100 test
-episodes, each on an unseen maze. A success rate is reached in the first episode where the rate over a full 100 tests is
-at least as high. A median treats `never` as infinite. `docs/paper.md` explains the deviations from the paper."""
+episodes, each on an unseen instance unless the section says otherwise. A success rate is reached in the first episode
+where the rate over a full 100 tests is at least as high. A median treats `never` as infinite. `docs/paper.md` explains
+the deviations from the paper."""
 
 
 def write(

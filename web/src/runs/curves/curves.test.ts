@@ -23,6 +23,8 @@ function curvesWith(more: Partial<Curves>): Curves {
     hi_labels: [],
     lo_samples: [],
     learner_seconds: [],
+    reward: [],
+    reached: {},
     ...more,
   };
 }
@@ -70,6 +72,12 @@ describe('the curves of a run', () => {
     ]);
     expect(joined(null, more)).toBe(more);
     expect(joined(curves, curvesWith({}))).toBe(curves);
+  });
+
+  it('join attempts at subgoals that only the later part has', () => {
+    const begun = curvesWith({ episode: [0, 1], reached: { stair: [0, 0.01] } });
+    const more = curvesWith({ episode: [2], reached: { stair: [0.02], key: [0.01] } });
+    expect(joined(begun, more).reached).toEqual({ stair: [0, 0.01, 0.02], key: [0, 0, 0.01] });
   });
 
   it('know only their own axes', () => {

@@ -91,6 +91,16 @@ export function joined(known: Curves | null, more: Curves): Curves {
     hi_labels: [...known.hi_labels, ...more.hi_labels],
     lo_samples: [...known.lo_samples, ...more.lo_samples],
     learner_seconds: [...known.learner_seconds, ...more.learner_seconds],
+    reward: [...known.reward, ...more.reward],
+    reached: Object.fromEntries(
+      Object.keys({ ...known.reached, ...more.reached }).map((subgoal) => [
+        subgoal,
+        [
+          ...(known.reached[subgoal] ?? known.episode.map(() => 0)),
+          ...(more.reached[subgoal] ?? more.episode.map(() => 0)),
+        ],
+      ]),
+    ),
   };
 }
 
