@@ -26,7 +26,7 @@ def mixed_precision(enabled: bool) -> torch.autocast:
 def as_input(observations: Observation) -> torch.Tensor:
     """Return observations as networks see them, float32: uint8 is divided by 255."""
     tensor = torch.from_numpy(observations)
-    return tensor.float() / 255 if tensor.dtype == torch.uint8 else tensor
+    return tensor.float().div_(255) if tensor.dtype == torch.uint8 else tensor
 
 
 def to_device(batch: torch.Tensor) -> torch.Tensor:

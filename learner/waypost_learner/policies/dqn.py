@@ -86,7 +86,7 @@ class QFunction:
         self.steps = self.updates = 0
         self.attempts: deque[bool] = deque(maxlen=ATTEMPTS)  # whether the last attempts reached the subgoal
         self.succeeded = False  # whether any attempt did
-        self._bf16 = spec.bf16 and has_bf16()
+        self.uses_bf16 = spec.bf16 and has_bf16()
 
     @torch.inference_mode()
     def __call__(self, observations: Observation) -> Outputs:
@@ -139,7 +139,7 @@ class QFunction:
             batch[name].to(DEVICE) for name in ("choice", "reward", "discount", "weight")
         )
         before, after = to_device(batch["before"]), to_device(batch["after"])
-        with mixed_precision(self._bf16):
+        with mixed_precision(self.uses_bf16):
             with torch.no_grad():
                 best = self.network(after).argmax(1, keepdim=True)  # double Q-learning
                 next_value = self.target(after).float().gather(1, best).squeeze(1)
