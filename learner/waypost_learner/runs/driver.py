@@ -161,6 +161,8 @@ class Driver:
 
     def _episode(self, number: int) -> Episode:
         """Return the algorithm's episode, or one without queries if sampled monitoring skips this episode."""
+        if self._config.redraw or not self._algorithm.monitored:
+            return self._algorithm.episode
         rng = np.random.default_rng([self._config.seed, streams.MONITORING, number])
         inspects = self._learner.preset.monitoring.inspects(self._passes, rng)
         return self._algorithm.episode if inspects else uninspected

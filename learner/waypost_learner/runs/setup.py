@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from waypost.domains import InstanceSets, find_domain
-from waypost_learner.algorithms import ALGORITHMS, Algorithm, find_algorithm
+from waypost_learner.algorithms import Algorithm, find_algorithm
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.experts.head_start import head_start
 from waypost_learner.presets import find_preset
@@ -42,9 +42,6 @@ def set_up(config: TrainConfig, threads: int | None) -> Setup:
     if config.head_start is not None and not algorithm.levels.reinforced:
         raise ValueError(f"{config.algorithm} learns only from an expert: leave out --head-start")
     learner = build_learner(config, threads)
-    if learner.preset.monitoring.share < 1 and (config.redraw or not algorithm.monitored):
-        monitored = ", ".join(name for name, one in ALGORITHMS.items() if one.monitored)
-        raise ValueError(f"monitoring.share below 1 works only with {monitored}, and without --redraw")
     strangers = learner.preset.training.dqn_of.keys() - set(learner.domain.subgoals)
     if strangers:
         raise ValueError(f"dqn_of names {min(strangers)!r}, but the subgoals are: {', '.join(learner.domain.subgoals)}")

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from waypost.domains import Placed, Relabeling, Retracing, Viewed, symmetries_of
-from waypost_learner.algorithms import Algorithm
+from waypost_learner.algorithms import ALGORITHMS, Algorithm
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.policies.networks import PlanningSpec
 from waypost_learner.presets import Changes, parse_values
@@ -23,15 +23,16 @@ def refuse_useless_values(config: TrainConfig, algorithm: Algorithm, learner: Le
     Raises:
         ValueError: a value has no effect; the message says why.
     """
-    reasons = _reasons(config.algorithm, algorithm, learner)
+    reasons = _reasons(config, algorithm, learner)
     for name in _leaves(parse_values(config.values)):
         reason = next((reasons[one] for one in _prefixes(name) if one in reasons), None)
         if reason is not None and not _is_off(name, learner):
             raise ValueError(f"{name} has no effect: {reason}; leave it out of --values")
 
 
-def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str]:
+def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dict[str, str]:
     """Return why values have no effect here, by the name of a value or of a group of values."""
+    name, monitored = config.algorithm, ", ".join(name for name, one in ALGORITHMS.items() if one.monitored)
     levels, domain, preset = algorithm.levels, learner.domain, learner.preset
     planned = {key for key in learner.learned if isinstance(learner.views[key].network, PlanningSpec)}
     hi = not (levels.flat or levels.q_hi)
@@ -67,6 +68,10 @@ def _reasons(name: str, algorithm: Algorithm, learner: Learner) -> dict[str, str
         "relabeling": (
             hi and isinstance(domain, Relabeling | Retracing),
             f"{name} has no mu that imitates, or the domain {domain.name!r} declares no relabeling",
+        ),
+        "monitoring": (
+            algorithm.monitored and not config.redraw,
+            f"only {monitored} are monitored, and only without --redraw",
         ),
         "monitoring.rate": (preset.monitoring.share < 1, "monitoring.share is 1"),
         "monitoring.confidence": (preset.monitoring.share < 1, "monitoring.share is 1"),

@@ -165,10 +165,25 @@ def test_a_finished_run_leaves_a_checkpoint_of_its_weights(tmp_path: Path) -> No
     assert (header.run, header.progress.episodes, header.config) == (summary["run"], 5, corridor(episodes=5))
 
 
+IMITATING = ["hg-dagger", "--domain", "corridor", "--preset", "tiny", "--episodes", "12"]
+# Q-functions have a checkpoint every 20 episodes. Here they learn from the first on, from short segments.
+REINFORCED = [
+    "hg-dagger-q",
+    "--domain",
+    "montezuma",
+    "--episodes",
+    "28",
+    "--values",
+    "warm_start_hybrid=1 train_hi_hybrid.least=64 train_hi_hybrid.most=64 h_hi=2 h_lo=12 dqn.least=32 dqn.capacity=400",
+]
+
+
+@pytest.mark.timeout(300)
+@pytest.mark.parametrize(("values", "every", "killed_after"), [(IMITATING, 4, 10), (REINFORCED, 1, 24)])
 def test_a_killed_waypost_train_resumed_reaches_the_weights_and_the_ledger_of_an_uninterrupted_one(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, values: list[str], every: int, killed_after: int
 ) -> None:
-    values = ["train", "hg-dagger", "--domain", "corridor", "--preset", "tiny", "--seed", "1", "--episodes", "12"]
+    command = ["train", *values, "--seed", "1"]
     killed, whole = str(tmp_path / "killed.db"), str(tmp_path / "whole.db")
     script = (
         "import os, signal\n"
@@ -176,22 +191,24 @@ def test_a_killed_waypost_train_resumed_reaches_the_weights_and_the_ledger_of_an
         "from waypost_learner.remote.in_process import InProcessTransport\n"
         "from waypost_learner.runs import driver\n"
         "import tests.learner.kit\n"
-        "driver.CHECKPOINT_EVERY = 4\n"
-        "handle, calls = InProcessTransport.handle_request, []\n"
+        f"driver.CHECKPOINT_EVERY = {every}\n"
+        "handle, reports = InProcessTransport.handle_request, []\n"
         "def handle_request(self, request):\n"
-        "    calls.append(request)\n"
-        "    return os.kill(os.getpid(), signal.SIGKILL) if len(calls) == 70 else handle(self, request)\n"
+        "    reports.extend([request] * request.url.path.endswith('/episodes'))\n"
+        f"    end = len(reports) == {killed_after}\n"
+        "    return os.kill(os.getpid(), signal.SIGKILL) if end else handle(self, request)\n"
         "InProcessTransport.handle_request = handle_request\n"
         "cli.main()\n"
     )
     env = {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path.cwd()), *filter(None, sys.path)])}
-    done = subprocess.run([sys.executable, "-c", script, *values, "--store", killed], env=env, capture_output=True)
+    done = subprocess.run([sys.executable, "-c", script, *command, "--store", killed], env=env, capture_output=True)
     assert done.returncode == -signal.SIGKILL, done.stderr.decode()
     (checkpoint,) = (tmp_path / "killed.db.checkpoints").glob("*.safetensors")
-    assert read_header(checkpoint).progress.episodes in (4, 8)
+    assert 0 < read_header(checkpoint).progress.episodes < killed_after
 
-    resumed = CliRunner().invoke(app, [*values, "--store", killed, "--resume", "--json"])
-    uninterrupted = CliRunner().invoke(app, [*values, "--store", whole, "--json"])
+    monkeypatch.setattr(driver, "CHECKPOINT_EVERY", every)
+    resumed = CliRunner().invoke(app, [*command, "--store", killed, "--resume", "--json"])
+    uninterrupted = CliRunner().invoke(app, [*command, "--store", whole, "--json"])
     one, other = json.loads(resumed.stdout), json.loads(uninterrupted.stdout)
     assert one["run"] == checkpoint.stem
     for same in ("weights", "cost", "episodes", "success_rate", "first_at"):

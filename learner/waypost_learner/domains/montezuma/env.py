@@ -5,6 +5,7 @@ The reward is the game's: 100 for the key, 300 for the door. The episode ends wh
 opens the door. After 2,000 steps it is truncated.
 """
 
+import weakref
 from collections import deque
 from dataclasses import dataclass
 from typing import Any
@@ -22,6 +23,10 @@ MAX_STEPS = 2_000
 MAX_NOOPS = 19
 
 Observation = NDArray[np.uint8]
+
+# Emulators, by frame skip, of environments that are gone. To start one takes as long as a hundred steps, and `reset`
+# returns it to the start completely.
+_IDLE: dict[int, list[Game]] = {1: [], FRAME_SKIP: []}
 
 
 @dataclass(frozen=True)
@@ -91,7 +96,9 @@ class MontezumaEnv(gymnasium.Env[Observation, np.int64]):
     def _game(self) -> Game:
         skip = 1 if self._instance.sticky else FRAME_SKIP
         if skip not in self._games:
-            self._games[skip] = Game(skip)
+            idle = _IDLE[skip]
+            self._games[skip] = idle.pop() if idle else Game(skip)
+            weakref.finalize(self, idle.append, self._games[skip])
         return self._games[skip]
 
     def _act(self, action: int) -> int:
