@@ -5,7 +5,7 @@ from playwright.sync_api import Page
 from waypost import wire
 
 DEMO_MS = 120_000  # a demonstration may have hundreds of steps, which the learner carries out one by one
-ARROWS = {"←": "ArrowLeft", "→": "ArrowRight", "↑": "ArrowUp", "↓": "ArrowDown"}
+NAMED = {"←": "ArrowLeft", "→": "ArrowRight", "↑": "ArrowUp", "↓": "ArrowDown", "Space": "Space"}
 
 
 def give(page: Page, answer: wire.Answer) -> None:
@@ -41,4 +41,5 @@ def press(page: Page, group: str, name: str | None) -> None:
     """Press the key that the page shows for a subgoal or an action."""
     button = page.locator(f"[role=group][aria-label^={group}] button[title='{str(name).replace('_', ' ')}']")
     printed = button.locator("kbd").inner_text()
-    page.keyboard.press(ARROWS.get(printed, printed.lower()))
+    *shift, key = printed.split()
+    page.keyboard.press("+".join([*("Shift" for _ in shift), NAMED.get(key, key.lower())]))

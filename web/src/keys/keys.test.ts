@@ -99,7 +99,7 @@ describe('the registry', () => {
     expect(awkward.actions.map((_, index) => keysOf(hierarchical, `act:${index}`))).toEqual([
       ['ArrowLeft'],
       ['s'],
-      ['f'],
+      [' '],
       ['n'],
     ]);
     expect(keysOf(hierarchical, 'choose:3')).toEqual(['x', '4']);
@@ -110,6 +110,19 @@ describe('the registry', () => {
     expect(flat.filter(({ command, keys }) => command.startsWith('act:') && keys.length === 0)).toHaveLength(
       5,
     );
+  });
+
+  it('gives the actions of a game their usual keys in demonstrations, and leaves the player its own', () => {
+    const game = { ...maze, actions: ['jump', 'left', 'jump_left', 'jump_right'] };
+    const demo = bindingsFor('hier_demo', game);
+    expect(game.actions.map((_, index) => keysOf(demo, `act:${index}`))).toEqual([
+      [' '],
+      ['ArrowLeft'],
+      ['Shift+ArrowLeft'],
+      ['Shift+ArrowRight'],
+    ]);
+    expect(collisions(demo)).toEqual([]);
+    expect(keysOf(bindingsFor('label_lo', game), 'play')).toEqual([' ']);
   });
 
   it('leaves every command of every mode reachable', () => {

@@ -216,6 +216,16 @@ const ARROWS: Readonly<Record<string, string>> = {
   left: 'ArrowLeft',
   right: 'ArrowRight',
 };
+/** The usual keys of a game, in demonstrations. A label's player uses them otherwise. */
+const GAME_KEYS: Readonly<Record<string, string>> = {
+  ...ARROWS,
+  jump: ' ',
+  fire: ' ',
+  jump_left: 'Shift+ArrowLeft',
+  jump_right: 'Shift+ArrowRight',
+  jump_up: 'Shift+ArrowUp',
+  jump_down: 'Shift+ArrowDown',
+};
 const DIGITS = '1234567890';
 
 function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
@@ -230,12 +240,12 @@ function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
   return [];
 }
 
-/** Each action has an arrow or a letter, each subgoal a digit and perhaps a letter. In a flat demonstration, actions also have digits. */
+/** Each action has the usual key of a game or a letter, each subgoal a digit and perhaps a letter. In a flat demonstration, actions also have digits. */
 function demoBindings(mode: 'hier_demo' | 'flat_demo', { subgoals, actions }: Vocabulary): Binding[] {
   const taken = new Set([...answerBindings(mode), UNDO, HELP].flatMap((binding) => binding.keys));
   const moves = actions.map((name, index): Binding => {
-    const arrow = ARROWS[name.toLowerCase()];
-    const key = arrow !== undefined && !taken.has(arrow) ? arrow : freeLetter(name, taken);
+    const usual = GAME_KEYS[name.toLowerCase()];
+    const key = usual !== undefined && !taken.has(usual) ? usual : freeLetter(name, taken);
     if (key !== undefined) taken.add(key);
     const digit = mode === 'flat_demo' ? DIGITS[index] : undefined;
     const keys = [key, digit].filter((one) => one !== undefined);

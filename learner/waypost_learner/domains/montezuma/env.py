@@ -5,6 +5,7 @@ The reward is the game's: 100 for the key, 300 for the door. The episode ends wh
 opens the door. After 2,000 steps it is truncated.
 """
 
+import atexit
 import weakref
 from collections import deque
 from dataclasses import dataclass
@@ -27,6 +28,7 @@ Observation = NDArray[np.uint8]
 # Emulators, by frame skip, of environments that are gone. To start one takes as long as a hundred steps, and `reset`
 # returns it to the start completely.
 _IDLE: dict[int, list[Game]] = {1: [], FRAME_SKIP: []}
+atexit.register(_IDLE.clear)  # ale-py complains about emulators that outlive the interpreter
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,7 @@ class MontezumaEnv(gymnasium.Env[Observation, np.int64]):
         if skip not in self._games:
             idle = _IDLE[skip]
             self._games[skip] = idle.pop() if idle else Game(skip)
-            weakref.finalize(self, idle.append, self._games[skip])
+            weakref.finalize(self, idle.append, self._games[skip]).atexit = False
         return self._games[skip]
 
     def _act(self, action: int) -> int:
