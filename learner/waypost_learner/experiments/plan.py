@@ -227,7 +227,7 @@ def _room(label: str, algorithm: str, **more: Any) -> Series:
 _MONTEZUMA = (
     Group(
         "montezuma-hybrid",
-        "the first room of Montezuma's Revenge, actions learned by reinforcement",
+        "Montezuma's Revenge, actions learned by reinforcement",
         "Tests: the 20 starts, on which the learner also trained. LO samples: the learner's steps in training.",
         ("progress-by-subgoal", "reward-by-sample", "success-by-sample", "hi-labels"),
         (_room("hg-DAgger/Q", "hg-dagger-q"), _room("h-DQN", "h-dqn")),

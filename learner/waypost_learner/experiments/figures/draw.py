@@ -126,7 +126,7 @@ def progress_by_subgoal(comparison: Comparison) -> Figure:
         curve(axes, [Track(run.lo_samples, 100 * run.reached[subgoal], run.complete) for run in learned], ours)
         curve(axes, [Track(log.lo_samples, 100 * log.reached[subgoal], over=True) for log in author_logs()], theirs)
         entries.append((subgoal.replace("_", " "), ours))
-    percent_axis(axes, "Attempts that reached the subgoal (trailing 100)")
+    percent_axis(axes, "Attempts that succeeded (trailing 100)")
     look.log_axis(axes.xaxis, "LO samples (logarithmic)")
     axes.set_xlim(left=1_000)
     entries.append(("the authors' runs", look.AUTHORS))
@@ -139,7 +139,7 @@ def reward_by_sample(comparison: Comparison) -> Figure:
     figure, (axes,) = frame(comparison, "Reward against LO samples")
     for series, runs in comparison.runs.items():
         curve(axes, [Track(run.lo_samples, run.reward, run.complete) for run in runs], look.style_of(series))
-    count_axis(axes.yaxis, "Reward of training rollouts (mean of the trailing 100)")
+    count_axis(axes.yaxis, "Mean reward (trailing 100 rollouts)")
     count_axis(axes.xaxis, "LO samples")
     _close(figure, comparison, _LINES)
     return figure

@@ -1,6 +1,6 @@
 """Contains the published numbers of the experiments.
 
-Those of Montezuma's Revenge are in `montezuma_authors.csv`: about 70 rows of the log of each of the authors' five runs.
+Those of Montezuma's Revenge are in `montezuma_authors.csv`: about 60 rows of the log of each of the authors' five runs.
 A run ended when it had reached the door in 91 of the last 100 attempts.
 
 Those of the maze are medians of five runs on corner mazes. We read them from the plots of Le et al. 2018 (figure "Maze
