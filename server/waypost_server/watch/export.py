@@ -100,6 +100,10 @@ def _curves(tx: Tx, run: str, after: int) -> Records:
     found = curves.curves(tx, run, after).model_dump(mode="json")
     by_kind = found.pop("cost_by_kind")
     found |= {f"{_COST}{kind}": sums for kind, sums in by_kind.items()}
+    by_subgoal = found.pop("reached")
+    found["reached"] = [
+        {name: rates[row] for name, rates in by_subgoal.items()} for row in range(len(found["episode"]))
+    ]
     rows = (dict(zip(found, row, strict=True)) for row in zip(*found.values(), strict=True))
     return [(row["episode"], row) for row in rows]
 

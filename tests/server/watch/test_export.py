@@ -45,6 +45,15 @@ def test_curves_are_a_row_per_episode(service: Service) -> None:
     assert [(line["episode"], line["success_rate"]) for line in lines] == [(0, None), (1, 1.0)]
 
 
+def test_curves_have_the_attempts_at_each_subgoal(service: Service) -> None:
+    run = service.learner.create_run()
+    attempt = {"subgoal": "key", "reached": True}
+    report(service, run, result(0), result(1, attempts=[attempt], reward=100.0))
+    assert [json.loads(row["reached"]) for row in rows(download(service, run, "curves"))] == [{"key": 0}, {"key": 0.01}]
+    lines = [json.loads(line) for line in download(service, run, "curves", "jsonl").splitlines()]
+    assert [(line["reached"], line["reward"]) for line in lines] == [({"key": 0}, 0), ({"key": 0.01}, 50)]
+
+
 def test_the_ledger_is_whole_and_in_order(service: Service) -> None:
     run = service.learner.create_run(prices={"inspect_full": 0.1})
     service.learner.ask(run, query(), query("label_lo", ordinal=1))
