@@ -68,7 +68,8 @@ _EPISODE = {
     "episode": _WHOLE,
     **dict.fromkeys(("warm_start", "train_success", "test_success"), _TRUTH),
     **dict.fromkeys(("train_steps", "test_steps", "hi_labels", "lo_labels"), _WHOLE),
-    **dict.fromkeys(("seconds", "at"), _REAL),
+    **dict.fromkeys(("reward", "seconds", "at"), _REAL),
+    "attempts": pa.list_(pa.struct([("subgoal", _TEXT), ("reached", _TRUTH)])),
 }
 _FILES: Mapping[str, tuple[str, pa.Schema]] = {
     # In the order in which another store takes them in.
