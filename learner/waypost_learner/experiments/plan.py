@@ -6,7 +6,6 @@ The plan contains only configurations, so drawing figures does not import any al
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import zip_longest
-from typing import Any
 
 from waypost_learner.runs.config import TrainConfig
 
@@ -220,8 +219,8 @@ _LEAN = (
 _ROOM = TrainConfig("hg-dagger-q", domain="montezuma", episodes=660)  # fewer than 100,000 LO samples
 
 
-def _room(label: str, algorithm: str, **more: Any) -> Series:
-    return Series(replace(_ROOM, algorithm=algorithm, **more), label)
+def _room(label: str, algorithm: str) -> Series:
+    return Series(replace(_ROOM, algorithm=algorithm), label)
 
 
 _MONTEZUMA = (

@@ -37,8 +37,11 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
     planned = {key for key in learner.learned if isinstance(learner.views[key].network, PlanningSpec)}
     hi = not (levels.flat or levels.q_hi)
     checks = {
-        "warm_start": (algorithm.interactive and not levels.q_lo, f"{name} has no warm start, or a hybrid's"),
-        "warm_start_hybrid": (algorithm.interactive and levels.q_lo, f"{name} has no warm start, or not a hybrid's"),
+        "warm_start": (
+            algorithm.interactive and not levels.q_lo,
+            f"{name} has no warm start, or takes warm_start_hybrid",
+        ),
+        "warm_start_hybrid": (algorithm.interactive and levels.q_lo, f"{name} has no warm start, or takes warm_start"),
         "h_hi": (not levels.flat, f"{name} has no subgoals"),
         "h_lo": (not levels.flat, f"{name} has no subgoals"),
         "repeat_penalty": (
