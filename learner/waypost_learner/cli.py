@@ -71,6 +71,9 @@ def train(
     token: TokenOption = "",
     store: StoreOption = None,
     in_flight: Annotated[int, typer.Option(min=1, help="Episodes open at the same time; 1 is the paper's loop.")] = 1,
+    environments: Annotated[
+        int | None, typer.Option(min=1, help="Environments that step together in training. Default: 1.")
+    ] = None,
     resume: Annotated[bool, typer.Option(help="Continue the newest unfinished run with these options.")] = False,
     name: Annotated[str | None, typer.Option(help="The run's name.")] = None,
     budget: Annotated[float | None, typer.Option(min=0, help="The highest cost of the run, in units.")] = None,
@@ -97,7 +100,18 @@ def train(
         from waypost_learner.runs.training import train as train_run
 
         config = TrainConfig(
-            algorithm, domain, instances, preset, seed, episodes, in_flight, warm_start, redraw, head_start, values
+            algorithm,
+            domain,
+            instances,
+            preset,
+            seed,
+            episodes,
+            in_flight,
+            warm_start,
+            redraw,
+            head_start,
+            environments,
+            values,
         )
         setup = set_up(config, threads)  # refuses a wrong configuration before the store is created
         loggers = tuple(word.strip() for words in log or ["tensorboard"] for word in words.split(","))

@@ -22,6 +22,7 @@ class TrainConfig:
     warm_start: int | None = None  # episodes of demonstrations; the preset's number if None
     redraw: bool = False  # draw instances until the learner fails on one, as the authors count episodes
     head_start: float | None = None  # share of an optimal trajectory that is carried out before the learner begins
+    environments: int | None = None  # that step together in training rollouts; 1 if None
     values: str | None = None  # values that replace the preset's: "relabeling=false train_hi.batch=32"
 
 

@@ -1,7 +1,8 @@
 """The outer loop of the algorithms: draw an instance, ask the episode's queries, learn from its labels, test.
 
 Several episodes may be open at once (`in_flight`). Their results are applied in episode order, and episode t + K starts
-right after episode t was applied. So a run is a function of its configuration and the answers; the order and the speed
+right after episode t was applied. With several `environments`, that many episodes start at the same moment, and their
+rollouts step together. So a run is a function of its configuration and the answers; the order and the speed
 of the answers do not matter. This also holds for training while the expert answers: its amount is fixed, and it ends
 before the policies act again. A query is identified by its episode and ordinal, so a restarted learner asks the same
 queries and pays for each only once.
@@ -9,7 +10,7 @@ queries and pays for each only once.
 
 import time
 from collections import deque
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -27,6 +28,7 @@ from waypost_learner.remote.camera import Camera
 from waypost_learner.remote.translation import Translator
 from waypost_learner.rollout import streams
 from waypost_learner.rollout.rollout import run
+from waypost_learner.rollout.simulator import Start
 from waypost_learner.runs.config import START, Progress
 from waypost_learner.runs.instances import Instances
 from waypost_learner.runs.run_queue import RunQueue
@@ -119,9 +121,9 @@ class Driver:
         """
         try:
             while self._open or self._next < self._config.episodes:
-                while self._may_start():
-                    self._start_episode(self._next)
-                    self._next += 1
+                while together := self._may_start():
+                    self._start_episodes(range(self._next, self._next + together))
+                    self._next += together
                 self._learner.train_idle()
                 if self._open[0].labels is not None:
                     self._apply(self._open.popleft())
@@ -131,27 +133,43 @@ class Driver:
             for episode in self._open:
                 episode.withdraw()
 
-    def _may_start(self) -> bool:
-        """Return whether the next episode may start.
+    def _may_start(self) -> int:
+        """Return how many episodes may start now; they start together.
 
         No episode may be open at a checkpoint: its rollout used older weights, so a resumed run could not repeat it.
         """
-        if self._next % self._checkpoint_every == 0 and self._open:
-            return False
-        return len(self._open) < self._config.in_flight and self._next < self._config.episodes
+        since_checkpoint = self._next % self._checkpoint_every
+        if since_checkpoint == 0 and self._open:
+            return 0
+        environments = self._config.environments or 1
+        left = self._config.episodes - self._next
+        together = min(environments, left, self._checkpoint_every - since_checkpoint)
+        return together if len(self._open) + together <= max(self._config.in_flight, environments) else 0
 
-    def _start_episode(self, number: int) -> None:
-        """Draw an instance and run the episode up to its first open query."""
-        warm = number < self._algorithm.warm_episodes(self._learner.preset)
-        warm_start = self._algorithm.warm_start if warm else None
-        redraw = self._config.redraw and not warm_start
+    def _start_episodes(self, numbers: Sequence[int]) -> None:
+        """Draw instances and run the episodes up to their first open queries."""
+        starts = {number: self._draw(number) for number in numbers}
+        self._learner.roll_out_together([s for number, s in starts.items() if not self._is_warm(number)])
+        for number, s in starts.items():
+            self._start_episode(number, s)
+
+    def _draw(self, number: int) -> Start:
+        """Draw the instance of an episode and return its start state."""
+        redraw = self._config.redraw and not self._is_warm(number)
         draw = self._instances.failing_draw(self._learner, self._draws) if redraw else self._draws
         self._draws = draw + 1
-        instance = self._instances.train(draw)
-        s = self._learner.start(instance, draw, self._queue.pictures)
+        return self._learner.start(self._instances.train(draw), draw, self._queue.pictures)
+
+    def _is_warm(self, number: int) -> bool:
+        """Return whether an episode belongs to the warm start."""
+        return number < self._algorithm.warm_episodes(self._learner.preset)
+
+    def _start_episode(self, number: int, s: Start) -> None:
+        """Run an episode from s up to its first open query."""
+        warm_start = self._algorithm.warm_start if self._is_warm(number) else None
         generator = (warm_start or self._episode(number))(s, self._learner)
-        camera = Camera(self._learner.domain, instance) if self._queue.pictures else None
-        episode = OpenEpisode(number, Translator(self._learner.domain, instance, camera), generator)
+        camera = Camera(self._learner.domain, s.instance) if self._queue.pictures else None
+        episode = OpenEpisode(number, Translator(self._learner.domain, s.instance, camera), generator)
         self._open.append(episode)
         query = episode.resume(partial(next, generator))
         if s.simulator.steps:

@@ -158,6 +158,24 @@ def test_a_rollout_is_fixed_by_its_start_state_alone_whatever_was_started_before
     assert one != redrawn
 
 
+@pytest.mark.parametrize("levels", [Levels(), Levels(flat=True)])
+def test_rollouts_that_step_together_are_the_same_and_networks_evaluate_their_states_in_batches(levels: Levels) -> None:
+    instances = CorridorDomain().instances("random").train
+    learner = Learner(CorridorDomain(), TINY, seed=0, levels=levels, threads=1)
+    sizes: list[int] = []
+
+    def counted(evaluate: Any) -> Any:
+        return lambda observations: (sizes.append(len(observations)), evaluate(observations))[1]
+
+    learner.policies = {key: counted(policy) for key, policy in learner.policies.items()}
+    starts = [learner.start(instance, draw) for draw, instance in enumerate(instances[:4])]
+    alone = [contents(learner.roll_out(s)) for s in starts]
+    assert max(sizes) == 1
+    learner.roll_out_together(starts)
+    assert [contents(learner.roll_out(s)) for s in reversed(starts)] == alone[::-1]
+    assert max(sizes) == len(starts)
+
+
 def test_the_same_start_state_is_rolled_out_again_from_its_beginning() -> None:
     learner = Learner(CorridorDomain(), TINY, seed=0, threads=1)
     s = learner.start(CorridorDomain().instances("random").train[0], 3)

@@ -86,6 +86,13 @@ def test_with_three_episodes_in_flight_the_run_is_the_same_whatever_order_the_an
     assert most_open == 3
 
 
+def test_several_environments_step_together_and_their_episodes_are_open_at_once(tmp_path: Path) -> None:
+    config = corridor(environments=4, episodes=15)
+    found, most_open = out_of_order(tmp_path / "other", config, seed=1)
+    assert found == at_once(tmp_path / "one", config)
+    assert most_open == 4
+
+
 @pytest.mark.parametrize("in_flight", [1, 3])
 def test_training_on_and_asking_less_depend_on_nobodys_pace(tmp_path: Path, in_flight: int) -> None:
     train_idle = " ".join(f"train_{level}.idle=32" for level in ("hi", "lo"))

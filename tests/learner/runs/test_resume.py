@@ -103,6 +103,16 @@ def test_experience_exploration_and_targets_survive_an_interruption(
     assert interrupted(tmp_path / "interrupted", config, 46, before_it_arrives=True) == expected
 
 
+@pytest.mark.parametrize("algorithm", ["hg-dagger", "hg-dagger-q"])
+def test_a_run_whose_environments_step_together_goes_on_as_it_would_have(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, algorithm: str
+) -> None:
+    monkeypatch.setattr(driver, "CHECKPOINT_EVERY", 1)  # so a group of 8 ends at a checkpoint
+    config = corridor(algorithm=algorithm, episodes=30, environments=8)
+    expected = uninterrupted(tmp_path / "uninterrupted", config)
+    assert interrupted(tmp_path / "interrupted", config, 60, before_it_arrives=True) == expected
+
+
 def test_a_run_with_redraw_goes_on_with_the_same_instances(tmp_path: Path) -> None:
     config = corridor(redraw=True)
     expected = uninterrupted(tmp_path / "uninterrupted", config)
