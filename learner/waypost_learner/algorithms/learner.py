@@ -148,11 +148,12 @@ class Learner:
         """
         exploring = {key: self.q[view.owner] for key, view in self.views.items() if view.owner in self.q}
         rollouts = self.preset.rollouts
+        h_lo = rollouts.h_lo_hybrid if self.levels.q_lo and rollouts.h_lo_hybrid else rollouts.h_lo
         behavior = Behavior(
             rollouts.choosing,
             np.random.default_rng([self.seed, stream, number]),
             rollouts.h_hi or self.domain.horizons.hi,
-            rollouts.h_lo or self.domain.horizons.lo,
+            h_lo or self.domain.horizons.lo,
             {key: q.epsilon if stream == streams.TRAIN else 0.0 for key, q in exploring.items()},
             self.levels.q_lo,
             rollouts.repeat_penalty,

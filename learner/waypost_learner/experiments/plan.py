@@ -216,7 +216,7 @@ _LEAN = (
     ),
 )
 
-_ROOM = TrainConfig("hg-dagger-q", domain="montezuma", episodes=660)  # fewer than 100,000 LO samples
+_ROOM = TrainConfig("hg-dagger-q", domain="montezuma", episodes=600)  # fewer than 100,000 LO samples
 
 
 def _room(label: str, algorithm: str) -> Series:

@@ -15,10 +15,11 @@ from waypost_learner.rollout.rollout import RolloutSpec, SelectionSpec
 _SMALL = TrainSpec(1e-3, 64, least=100 * 64, most=100 * 64, dropout=0.0, averaging=0.99, bf16=False)
 _SMALL_LO = replace(_SMALL, dropout=0.3)
 
-# A subgoal takes the expert about 45 actions. Segments end at 80, because an expert labels all of a failed segment.
+# A subgoal takes the expert about 45 actions. Segments that an expert may label end at 80, because all of a failed
+# segment is labeled. A Q-function gets more time: waiting for the skull to go is better than dying by it.
 LEAN = Preset(
     warm_start=5,
-    rollouts=RolloutSpec(SelectionSpec(temperature=0.0, termination_threshold=0.9), h_hi=8, h_lo=80),
+    rollouts=RolloutSpec(SelectionSpec(temperature=0.0, termination_threshold=0.9), h_hi=6, h_lo=80, h_lo_hybrid=200),
     training=Training(
         network=NetworkSpec((Convolution(16, 6, 4), Convolution(32, 3, 2)), hidden=128),
         train_hi=_SMALL,
@@ -27,7 +28,7 @@ LEAN = Preset(
         train_hi_hybrid=_SMALL,
         dqn=DqnSpec(
             batch=32,
-            update_every=2,
+            update_every=1,
             discount=0.99,
             ahead=10,
             target_every=500,
@@ -66,6 +67,7 @@ PAPER = Preset(
             capacity=500_000,
             least=20_000,
             epsilon=((0, 1.0), (200_000, 0.02)),
+            pseudo=PseudoReward(reached=1.0, failed=-1.0, step=0.0),
             from_success=True,
             stop_above=0.9,
             symmetries=False,

@@ -12,7 +12,18 @@ from waypost_learner.presets.base import value_of
 from waypost_learner.runs.config import TrainConfig
 
 _SWITCHES = frozenset(
-    {"h_hi", "h_lo", "planning", "relabeling", "repeat_penalty", "symmetries", "tied", "views", "monitoring.share"}
+    {
+        "h_hi",
+        "h_lo",
+        "h_lo_hybrid",
+        "planning",
+        "relabeling",
+        "repeat_penalty",
+        "symmetries",
+        "tied",
+        "views",
+        "monitoring.share",
+    }
 )
 """Values that may be set to false, 0 or null even if they have no effect."""
 
@@ -43,7 +54,11 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
         ),
         "warm_start_hybrid": (algorithm.interactive and levels.q_lo, f"{name} has no warm start, or takes warm_start"),
         "h_hi": (not levels.flat, f"{name} has no subgoals"),
-        "h_lo": (not levels.flat, f"{name} has no subgoals"),
+        "h_lo": (
+            not levels.flat and not (levels.q_lo and preset.rollouts.h_lo_hybrid),
+            f"{name} has no subgoals, or takes h_lo_hybrid",
+        ),
+        "h_lo_hybrid": (levels.q_lo and not levels.flat, f"{name} has no Q-function of a subgoal"),
         "repeat_penalty": (
             not levels.flat and isinstance(domain, Placed),
             f"{name} has no subgoals, or the domain {domain.name!r} declares no places",
