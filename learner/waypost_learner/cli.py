@@ -65,7 +65,9 @@ def train(
     ] = None,
     redraw: Annotated[bool, typer.Option(help="Draw instances until the learner fails on one.")] = False,
     head_start: Annotated[float | None, typer.Option(help="Share of an optimal trajectory to begin with.")] = None,
-    values: Annotated[str | None, typer.Option(help='Values to replace in the preset: "relabeling=false".')] = None,
+    values: Annotated[
+        list[str] | None, typer.Option(help='Values to replace in the preset: "relabeling=false"; can be repeated.')
+    ] = None,
     expert: Annotated[str, typer.Option(help="oracle answers in this process; with queue, others answer.")] = "oracle",
     server: ServerOption = None,
     token: TokenOption = "",
@@ -111,7 +113,7 @@ def train(
             redraw,
             head_start,
             environments,
-            values,
+            " ".join(values) if values else None,
         )
         setup = set_up(config, threads)  # refuses a wrong configuration before the store is created
         loggers = tuple(word.strip() for words in log or ["tensorboard"] for word in words.split(","))

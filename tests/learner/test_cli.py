@@ -100,6 +100,14 @@ def test_the_preset_is_lean_unless_another_is_named() -> None:
         assert connection.learner.run(json.loads(result.stdout)["run"]).config["preset"] == "lean"
 
 
+def test_values_that_are_given_one_by_one_are_all_used() -> None:
+    one_by_one = ["--values", "warm_start=2", "--values", "h_lo=9"]
+    result = waypost(*TRAIN, "--episodes", "1", "--store", "values.db", *one_by_one, "--json")
+    assert result.exit_code == 0, result.output
+    with embedded(Path("values.db")) as connection:
+        assert connection.learner.run(json.loads(result.stdout)["run"]).config["values"] == "warm_start=2 h_lo=9"
+
+
 def test_training_without_json_prints_a_summary_for_people(trained: tuple[Path, str]) -> None:
     result = waypost(*TRAIN, "--episodes", "8", "--store", str(trained[0]))
     assert result.exit_code == 0
