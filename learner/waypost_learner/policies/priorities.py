@@ -26,7 +26,8 @@ class Priorities:
         self._sums, self._lowest = np.zeros(n_blocks), np.full(n_blocks, np.inf)
 
     def __getitem__(self, rows: Any) -> NDArray[np.float64]:
-        return self._flat[rows]
+        found: NDArray[np.float64] = self._flat[rows]
+        return found
 
     def set(self, rows: NDArray[np.int64], values: NDArray[np.float64] | float) -> None:
         """Set the priorities of rows."""
@@ -47,16 +48,15 @@ class Priorities:
         return float(self._flat.max())
 
     def draw(self, size: int, rng: torch.Generator) -> NDArray[np.int64]:
-        """Draw rows int64[size] in proportion to their priorities, with replacement."""
+        """Draw rows int64[size] in proportion to their priorities, with replacement.
+
+        Sums are rounded, so a draw may point behind the last row with a priority; it then gets this row.
+        """
         ends = self._sums.cumsum()
         drawn = torch.rand(size, dtype=torch.float64, generator=rng).numpy() * ends[-1]
-        block = self._occupied(np.searchsorted(ends, drawn, side="right"))
+        block = np.minimum(np.searchsorted(ends, drawn, side="right"), np.flatnonzero(self._sums)[-1])
         within = drawn - (ends[block] - self._sums[block])
         row = (self._blocks[block].cumsum(1) <= within[:, None]).sum(1)
-        last = (self._blocks[block] > 0).cumsum(1).argmax(1)  # rounding may lead beyond the last row with a priority
+        last = (self._blocks[block] > 0).cumsum(1).argmax(1)
         found: NDArray[np.int64] = block * _BLOCK + np.minimum(row, last)
         return found
-
-    def _occupied(self, block: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return blocks, but at most the last one with a priority: rounding may lead beyond it."""
-        return np.minimum(block, np.flatnonzero(self._sums)[-1])

@@ -184,7 +184,8 @@ class _Planes:
 
     def __getitem__(self, numbers: Any) -> Plane:
         assert self._ring is not None, "there are no planes"
-        return self._ring[numbers % len(self._ring)]
+        found: Plane = self._ring[numbers % len(self._ring)]
+        return found
 
     def append(self, plane: Plane) -> int:
         """Store a plane; return its number."""
