@@ -219,8 +219,8 @@ _LEAN = (
 _ROOM = TrainConfig("hg-dagger-q", domain="montezuma", episodes=600)  # fewer than 100,000 LO samples
 
 
-def _room(label: str, algorithm: str, episodes: int = _ROOM.episodes, instances: str = _ROOM.instances) -> Series:
-    return Series(replace(_ROOM, algorithm=algorithm, episodes=episodes, instances=instances), label)
+def _room(label: str, algorithm: str) -> Series:
+    return Series(replace(_ROOM, algorithm=algorithm), label)
 
 
 _MONTEZUMA = (
@@ -232,28 +232,6 @@ _MONTEZUMA = (
         (_room("hg-DAgger/Q", "hg-dagger-q"), _room("h-DQN", "h-dqn")),
         hybrid=True,
         tests="the 20 starts",
-    ),
-    Group(
-        "montezuma-imitation",
-        "Montezuma's Revenge, actions learned by imitation",
-        f"{_HONEST} Tests: the 20 starts, on which the learner also trained.",
-        ("success-by-log-cost", "cost-by-kind"),
-        (_room("hg-DAgger", "hg-dagger", 300), _room("h-BC", "h-bc", 40), _room("flat DAgger", "flat-dagger", 150)),
-        lean=True,
-        tests="the 20 starts",
-    ),
-    Group(
-        "montezuma-slips",
-        "Montezuma's Revenge where 5 % of the actions are random, actions learned by imitation",
-        f"{_HONEST} Tests: unseen random numbers of the slips.",
-        ("success-by-log-cost", "cost-by-kind"),
-        (
-            _room("hg-DAgger", "hg-dagger", 300, "slips"),
-            _room("h-BC", "h-bc", 80, "slips"),
-            _room("flat DAgger", "flat-dagger", 150, "slips"),
-        ),
-        lean=True,
-        tests="starts with unseen slips",
     ),
 )
 
