@@ -184,7 +184,8 @@ REINFORCED = [
     "--episodes",
     "28",
     "--values",
-    "warm_start_hybrid=1 train_hi_hybrid.least=64 train_hi_hybrid.most=64 h_hi=2 h_lo=12 dqn.least=32 dqn.capacity=400",
+    "warm_start_hybrid=1 train_hi_hybrid.least=64 train_hi_hybrid.most=64 h_hi=2 h_lo_hybrid=12 dqn.least=32"
+    " dqn.capacity=400",
 ]
 
 
