@@ -5,14 +5,13 @@ Each command imports the learner's packages when it runs. So the base installati
 
 import json
 from contextlib import ExitStack
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from rich.console import Console
 
-from waypost.wire import Assignment, EpisodeResult, Receipt, Run, RunPatch
+from waypost.wire import Assignment, Receipt, RunPatch
 from waypost_learner.commands import (
     JsonOption,
     PatienceOption,
@@ -21,11 +20,11 @@ from waypost_learner.commands import (
     checkpoint_folder,
     learner_errors,
     needed,
-    progress_bar,
     refuse,
 )
 from waypost_learner.exchange import cli as exchange_cli
 from waypost_learner.experiments import cli as experiments_cli
+from waypost_learner.progress import BuildingProgress, TrainingProgress
 from waypost_server import cli as server_cli
 
 app = typer.Typer(
@@ -128,7 +127,7 @@ def train(
                 if server is not None
                 else embedded(store or Path("waypost.db"))
             )
-            progress = stack.enter_context(_TrainingProgress(episodes))
+            progress = stack.enter_context(TrainingProgress(episodes))
             summary = train_run(config, connection, options, progress.start, progress.episode, _tell)
     _print_summary(summary, as_json)
 
@@ -305,7 +304,7 @@ def build_domain(
         domain = find_domain(name)
         if not isinstance(domain, Computed):
             refuse(f"The domain {domain.name!r} has no data to compute.")
-        with _BuildingProgress() as progress:
+        with BuildingProgress() as progress:
             domain.build(file, progress.show)
     typer.echo(f"The data is in {file}.")
 
@@ -330,49 +329,6 @@ def _kinds(text: str | None) -> Any:
     if unknown:
         refuse(f"There is no kind of query {unknown[0]!r}; the kinds are: {', '.join(get_args(Kind))}.")
     return kinds
-
-
-@dataclass
-class _TrainingProgress:
-    """The progress bar of a run. It shows nothing if standard error is not a terminal."""
-
-    episodes: int
-
-    def __enter__(self) -> "_TrainingProgress":
-        self._bar = progress_bar()
-        self._bar.start()
-        self._tests: list[bool] = []
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._bar.stop()
-
-    def start(self, run: Run, first: int) -> None:
-        self._task = self._bar.add_task(f"run {run.id}", total=self.episodes, completed=first)
-
-    def episode(self, result: EpisodeResult, units: float) -> None:
-        del units
-        if result.test_success is not None:
-            self._tests = [*self._tests, result.test_success][-100:]
-        rate = sum(self._tests) / max(len(self._tests), 1)
-        self._bar.update(self._task, advance=1, description=f"success {rate:.0%} (trailing {len(self._tests)})")
-
-
-class _BuildingProgress:
-    """One progress bar for each thing that is computed."""
-
-    def __enter__(self) -> "_BuildingProgress":
-        self._bar, self._tasks = progress_bar(), dict[str, Any]()
-        self._bar.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._bar.stop()
-
-    def show(self, what: str, done: int, known: int) -> None:
-        if what not in self._tasks:
-            self._tasks[what] = self._bar.add_task(what)
-        self._bar.update(self._tasks[what], completed=done, total=known)
 
 
 def _report_failure(assignment: Assignment, error: Exception) -> None:

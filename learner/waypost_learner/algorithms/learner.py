@@ -33,6 +33,7 @@ from waypost_learner.rollout.rollout import (
     Rollout,
     flat_rollout,
     hierarchical_rollout,
+    run,
     run_all,
     unique_place,
 )
@@ -70,8 +71,8 @@ class Learner:
         self.learned: dict[PolicyKey, Policy | QFunction] = {**self.imitators, **self.q}
         self.policies = {key: view.wrap(self.learned[view.owner]) for key, view in self.views.items()}
         self.data = {key: Dataset(self.views[key].view.shape) for key in self.imitators}
-        self._together: Sequence[Start] = ()  # that `roll_out` rolls out when the first of them is asked for
-        self._rolled_out: dict[Start, Trajectory] = {}  # those that were not asked for yet
+        self._together: Sequence[Start] = ()  # whose rollouts `roll_out` makes when it is given the first of them
+        self._rolled_out: dict[Start, Trajectory] = {}  # their rollouts that were not returned yet
         self.due: list[PolicyKey] = []  # the policies that `train_idle` trains
         # One thread per policy: small networks gain nothing from threads within one operation. What a policy learns
         # depends on its own data and generator alone, so the number of threads changes nothing but the time.
@@ -115,11 +116,13 @@ class Learner:
 
         Q-functions explore, and are updated after their choices (Algorithm 3, lines 9 to 11).
         """
-        if s not in self._rolled_out:
-            starts, self._together = (self._together, ()) if s in self._together else ((s,), self._together)
+        if s in self._together:
+            starts, self._together = self._together, ()
             rollouts = [self.rollout(one.simulator, one.instance, streams.TRAIN, one.draw) for one in starts]
             self._rolled_out |= zip(starts, run_all(rollouts, self.policies, self._stepped), strict=True)
-        return self._rolled_out.pop(s)
+        if s in self._rolled_out:
+            return self._rolled_out.pop(s)
+        return run(self.rollout(s.simulator, s.instance, streams.TRAIN, s.draw), self.policies, self._stepped)
 
     def roll_out_together(self, starts: Sequence[Start]) -> None:
         """Let the rollouts from these start states step together, so that networks evaluate their states in batches.

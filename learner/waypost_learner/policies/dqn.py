@@ -16,7 +16,7 @@ from torch import nn
 from torch.nn import functional
 
 from waypost.trajectory import Observation
-from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision
+from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision, to_device
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec, build_network
 from waypost_learner.policies.replay import Replay
 from waypost_learner.rollout.experience import Experience, PseudoReward, Returns
@@ -138,7 +138,7 @@ class QFunction:
         choice, reward, discount, weight = (
             batch[name].to(DEVICE) for name in ("choice", "reward", "discount", "weight")
         )
-        before, after = batch["before"].to(DEVICE), batch["after"].to(DEVICE)
+        before, after = to_device(batch["before"]), to_device(batch["after"])
         with mixed_precision(self.uses_bf16):
             with torch.no_grad():
                 best = self.network(after).argmax(1, keepdim=True)  # double Q-learning

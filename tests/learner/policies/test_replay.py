@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from tests.learner.kit import examples
 
 from waypost_learner.policies.dqn import DqnSpec
-from waypost_learner.policies.priorities import Priorities
 from waypost_learner.policies.replay import Replay
 from waypost_learner.rollout.experience import Experience, Transition
 
@@ -73,25 +72,6 @@ def test_stacked_pictures_come_back_as_they_were_and_each_is_stored_once(
             )
     # One new picture for each state, and the pictures around the first and the last state of each walk.
     assert len(replay.tensors()["sizes"]) <= len(wanted) + 7 * len(lengths) + 3
-
-
-whole = st.integers(1, 9).map(float)  # sums of whole numbers are exact
-
-
-@examples
-@given(st.lists(whole, min_size=1, max_size=300), st.dictionaries(st.integers(0, 299), whole), st.integers(0, 9))
-def test_rows_are_drawn_as_from_the_sums_of_all_priorities_before_them(
-    values: list[float], changed: dict[int, float], seed: int
-) -> None:
-    priorities, n = Priorities(300), len(values)
-    priorities.set(np.arange(n), np.array(values))
-    for row, value in changed.items():
-        values[row % n] = value
-        priorities.set(np.array([row % n]), value)
-    uniform = torch.rand(100, dtype=torch.float64, generator=torch.Generator().manual_seed(seed)).numpy()
-    wanted = np.searchsorted(np.cumsum(values), uniform * sum(values), side="right")
-    assert priorities.draw(100, torch.Generator().manual_seed(seed)).tolist() == wanted.tolist()
-    assert (priorities.lowest, priorities.highest) == (min(values), max(values))
 
 
 def test_rows_are_drawn_in_proportion_to_their_priority_and_weighed_against_it() -> None:
