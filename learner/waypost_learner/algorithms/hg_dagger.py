@@ -24,5 +24,8 @@ def hg_dagger(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
             if not (yield InspectLo(segment, before=sigma[:h])):  # line 16
                 labels.append_lo(segment, (yield LabelLo(segment, before=sigma[:h])))  # line 17
                 break  # line 18
+            labels.append_passed(segment)
         labels.append_hi(sigma, d_star)  # line 19
+    else:
+        labels.append_passed(*sigma)
     return labels

@@ -175,7 +175,7 @@ class Learner:
         sizes = {key: len(data) for key, data in self.data.items()}
         use = self.preset.use
         relabeling = self.domain if isinstance(self.domain, Relabeling | Retracing) else None
-        rows = rows_of(labels, relabeling if use.relabeling else None)
+        rows = rows_of(labels, relabeling if use.relabeling else None, self.preset.training.from_passed)
         self._append_rows(rows, symmetries_of(self.domain) if use.symmetries else ())
         if self.q:
             self._remember(list(self._experience_of(labels)))

@@ -33,6 +33,7 @@ class Labels:
     demonstrations: list[Trajectory] = field(default_factory=list)  # their labels are in `hi` and `lo` too
     flat: list[tuple[Trajectory, tuple[Action, ...]]] = field(default_factory=list)
     experience: list[tuple[PolicyKey, Trajectory]] = field(default_factory=list)
+    passed: list[Segment] = field(default_factory=list)  # of rollouts: the learner's own, which the expert passed
 
     def append_hi(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> None:
         """D_HI <- D_HI + {(s_h, g*_h)}."""
@@ -53,17 +54,25 @@ class Labels:
         """D <- D + {(s, a*)} over the full trajectory."""
         self.flat.append((trajectory, tuple(good_actions)))
 
+    def append_passed(self, *segments: Segment) -> None:
+        """Note that the expert passed segments of a rollout: what the learner did in them was right.
+
+        A segment that the horizon cut off is left out: nobody said whether it should have ended there.
+        """
+        self.passed.extend(segment for segment in segments if segment.terminated or segment.final)
+
     def append_experience(self, key: PolicyKey, trajectory: Trajectory) -> None:
         """D_g <- D_g + tau_h (Algorithm 3, lines 20 and 22), or the same for another Q-function."""
         self.experience.append((key, trajectory))
 
 
-def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None) -> Rows:
+def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None, from_passed: bool = False) -> Rows:
     """Return the rows that labels add to each policy's buffer, in the order in which the labels were appended.
 
     Args:
         labels: the labels of one episode.
         relabeling: the domain that derives labels for other tasks from these (docs/lean.md); no relabeling if None.
+        from_passed: whether policies imitate what they did themselves in segments that the expert passed.
     """
     rows: Rows = {}
     for sigma, good in labels.hi:
@@ -72,6 +81,8 @@ def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None) ->
         )
     for segment, lo in labels.lo:
         _extend(rows, segment, lo)
+    for segment in labels.passed if from_passed else ():
+        _extend(rows, segment, _demonstrated(segment))
     for tau, actions in labels.flat:
         rows.setdefault(FLAT, []).extend(_flat_rows(tau, actions))
     if isinstance(relabeling, Relabeling):

@@ -155,6 +155,24 @@ def test_when_every_segment_passes_only_the_subgoals_are_learned() -> None:
     assert rows_of(labels).keys() == {META}
 
 
+def test_with_from_passed_a_subpolicy_also_learns_what_it_did_in_the_segments_that_passed() -> None:
+    _, _, labels = hg_dagger_episode([0, 1, 2, 3], [0, 1, 2, 3], [True, True, False, False])
+    rows = rows_of(labels, from_passed=True)
+    assert rows.keys() == {META, pi(0), pi(1), pi(2)}
+    assert [(row.choice, row.termination) for row in rows[pi(0)]] == [(0, -1), (0, 0), (-1, 1)]
+    assert [row.choice for row in rows[pi(2)]] == [1, 1, -1]  # the expert's
+
+    _, _, labels = hg_dagger_episode([0, 1], [0, 1], [], passes=True)
+    assert rows_of(labels, from_passed=True).keys() == {pi(0), pi(1)}
+
+
+def test_a_segment_that_the_horizon_cut_off_teaches_nothing_by_passing() -> None:
+    sigma = (segment(0, terminated=False), replace(segment(1, terminated=False), final=True), segment(2))
+    learner: Any = ScriptedLearner(sigma)
+    labels = carried_out(hg_dagger(S, learner), Expert(sigma, True, [0, 1, 2], []))
+    assert rows_of(labels, from_passed=True).keys() == {pi(1), pi(2)}
+
+
 @pytest.mark.parametrize(
     ("good", "lo_passes", "kinds"),
     [
