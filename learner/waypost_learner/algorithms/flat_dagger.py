@@ -18,4 +18,6 @@ def flat_dagger(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     tau = learner.roll_out(s)
     if not (yield InspectFull(tau)):
         labels.append_flat(tau, (yield LabelFull(tau)))
+    else:
+        labels.append_passed(*tau)
     return labels

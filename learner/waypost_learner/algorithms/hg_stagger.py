@@ -22,7 +22,12 @@ def hg_stagger(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     segment, before = sigma[h], sigma[:h]
     if not (yield InspectFull(sigma)):
         (g_star,) = yield LabelHi((segment,), before)
-        if segment.subgoal == g_star and not (yield InspectLo(segment, before)):
-            labels.append_lo(segment, (yield LabelLo(segment, before)))
+        if segment.subgoal == g_star:
+            if not (yield InspectLo(segment, before)):
+                labels.append_lo(segment, (yield LabelLo(segment, before)))
+            else:
+                labels.append_passed(segment)
         labels.append_hi((segment,), (g_star,))
+    else:
+        labels.append_passed(*sigma)
     return labels

@@ -57,9 +57,9 @@ class Labels:
     def append_passed(self, *segments: Segment) -> None:
         """Note that the expert passed segments of a rollout: what the learner did in them was right.
 
-        A segment that the horizon cut off is left out: nobody said whether it should have ended there.
+        A subgoal's segment that the horizon cut off is left out: nobody said whether it should have ended there.
         """
-        self.passed.extend(segment for segment in segments if segment.terminated or segment.final)
+        self.passed.extend(one for one in segments if one.subgoal is None or one.terminated or one.final)
 
     def append_experience(self, key: PolicyKey, trajectory: Trajectory) -> None:
         """D_g <- D_g + tau_h (Algorithm 3, lines 20 and 22), or the same for another Q-function."""
@@ -72,7 +72,7 @@ def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None, fr
     Args:
         labels: the labels of one episode.
         relabeling: the domain that derives labels for other tasks from these (docs/lean.md); no relabeling if None.
-        from_passed: whether policies imitate what they did themselves in segments that the expert passed.
+        from_passed: whether subpolicies and flat policies imitate what they did themselves where the expert passed it.
     """
     rows: Rows = {}
     for sigma, good in labels.hi:
@@ -81,10 +81,13 @@ def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None, fr
         )
     for segment, lo in labels.lo:
         _extend(rows, segment, lo)
-    for segment in labels.passed if from_passed else ():
-        _extend(rows, segment, _demonstrated(segment))
     for tau, actions in labels.flat:
         rows.setdefault(FLAT, []).extend(_flat_rows(tau, actions))
+    for segment in labels.passed if from_passed else ():
+        if segment.subgoal is None:
+            rows.setdefault(FLAT, []).extend(_flat_rows((segment,), segment.actions))
+        else:
+            _extend(rows, segment, _demonstrated(segment))
     if isinstance(relabeling, Relabeling):
         for sigma, good in labels.hi:
             rows[META] += [Row(observation, g) for observation, g in relabeling.relabeled(sigma, good)]

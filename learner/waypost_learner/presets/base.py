@@ -23,7 +23,7 @@ class Training:
     train_flat: TrainSpec  # of a flat policy
     train_hi_hybrid: TrainSpec  # of mu where each pi_g is a Q-function, which takes many more episodes
     dqn: DqnSpec  # of Q-functions
-    # Whether subpolicies imitate what they did themselves in segments that the expert passed, which costs nothing.
+    # Whether pi_g and flat policies imitate what they did themselves where the expert passed it. This costs nothing.
     from_passed: bool = False
     # Other values of the Q-functions of single subgoals, by the subgoal's name, such as {"stair": {"least": 1000}}.
     dqn_of: dict[str, dict[str, Any]] = field(default_factory=dict)

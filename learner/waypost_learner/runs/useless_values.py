@@ -13,6 +13,7 @@ from waypost_learner.runs.config import TrainConfig
 
 _SWITCHES = frozenset(
     {
+        "from_passed",
         "h_hi",
         "h_lo",
         "h_lo_hybrid",
@@ -70,6 +71,10 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
         "train_hi_hybrid": (hi and levels.q_lo, f"{name} has no mu that imitates beside Q-functions"),
         "train_lo": (not levels.flat and not levels.q_lo, f"{name} has no pi_g that imitates"),
         "train_flat": (levels.flat and not levels.q_lo, f"{name} has no flat policy that imitates"),
+        "from_passed": (
+            algorithm.monitored and not levels.q_lo,
+            f"in {name} the expert passes nothing that a policy could imitate",
+        ),
         "dqn": (levels.reinforced, f"{name} has no Q-function"),
         "dqn_of": (levels.q_lo and not levels.flat, f"{name} has no Q-function of a subgoal"),
         "dqn.pseudo": (levels.q_lo and not levels.flat, f"{name} has no Q-function of a subgoal"),

@@ -198,6 +198,7 @@ def test_stagger_asks_for_the_subgoal_of_one_segment_and_inspects_that_alone(
     assert [type(query) for query in expert.asked] == kinds
     assert [row.choice for row in rows_of(labels)[META]] == [good]
     assert (pi(1) in rows_of(labels)) == (LabelLo in kinds)
+    assert (pi(1) in rows_of(labels, from_passed=True)) == (InspectLo in kinds)
 
 
 def test_stagger_learns_nothing_of_an_episode_that_passed() -> None:
@@ -272,6 +273,7 @@ def test_flat_dagger_inspects_and_labels_the_whole_trajectory_only_after_a_fail(
     labels = carried_out(flat_dagger(S, ScriptedLearner(tau)), expert)  # type: ignore[arg-type]
     assert expert.asked == [InspectFull(tau)] if passes else [InspectFull(tau), LabelFull(tau)]
     assert [row.choice for row in rows_of(labels).get(FLAT, [])] == ([] if passes else [1, 1, 1])
+    assert [row.choice for row in rows_of(labels, from_passed=True)[FLAT]] == ([0, 0, 0] if passes else [1, 1, 1])
 
 
 @examples

@@ -43,6 +43,7 @@ def test_a_warm_start_is_for_algorithms_that_have_one(algorithm: str) -> None:
         ("flat-dqn", "maze", "dqn.pseudo.step=-0.1", "has no Q-function of a subgoal"),
         ("hg-dagger", "corridor", "planning=16", "no policy of hg-dagger has a view"),
         ("hg-dagger", "maze", "monitoring.rate=0.8", "monitoring.share is 1"),
+        ("h-bc", "maze", "from_passed=true", "in h-bc the expert passes nothing that a policy could imitate"),
     ],
 )
 def test_a_value_without_effect_is_refused_with_the_reason(algorithm: str, domain: str, values: str, said: str) -> None:
