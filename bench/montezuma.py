@@ -108,7 +108,8 @@ def our_steps(n: int) -> None:
 def updates(name: str, filled: int) -> tuple[Timed, Timed]:
     """Return the plain updates and ours, with the network of a preset."""
     domain, preset = find_domain("montezuma"), find_preset(name, None, "montezuma")
-    view = policy_view(domain, preset.use, preset.training.network, pi(0))
+    use = replace(preset.use, centered=False)  # as in `Learner`
+    view = policy_view(domain, use, preset.training.network, pi(0))
     spec = replace(preset.training.dqn, update_every=1, least=1, capacity=filled, stop_above=None)
     q = QFunction(view.view.shape, len(ACTIONS), view.network, spec, seed=0)
     rng = np.random.default_rng(0)

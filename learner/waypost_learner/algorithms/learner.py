@@ -13,6 +13,7 @@ import torch
 from waypost.domains import Domain, Placed, Relabeling, Retracing, Symmetry, symmetries_of
 from waypost.trajectory import Trajectory
 from waypost_learner.policies.datasets import Dataset
+from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.dqn import DqnSpec, QFunction
 from waypost_learner.policies.imitation import Policy
 from waypost_learner.policies.labels import (
@@ -64,7 +65,7 @@ class Learner:
         self.domain, self.preset, self.seed, self.levels = domain, preset, seed, levels
         self._head_start = head_start
         keys = levels.keys(len(domain.subgoals))
-        self.views = {key: policy_view(domain, preset.use, preset.training.network, key) for key in keys}
+        self.views = {key: policy_view(domain, self._use(key), preset.training.network, key) for key in keys}
         owners = [key for key in keys if self.views[key].owner == key]
         self.q = {key: self._q_function(key) for key in owners if levels.is_q_function(key)}
         self.imitators = {key: self._policy(key) for key in owners if key not in self.q}
@@ -78,6 +79,10 @@ class Learner:
         # depends on its own data and generator alone, so the number of threads changes nothing but the time.
         torch.set_num_threads(1)
         self._threads = ThreadPoolExecutor(threads or os.cpu_count(), initializer=torch.set_num_threads, initargs=(1,))
+
+    def _use(self, key: PolicyKey) -> DomainUse:
+        use = self.preset.use
+        return replace(use, centered=False) if self.levels.is_q_function(key) else use
 
     def _policy(self, key: PolicyKey) -> Policy:
         training, view = self.preset.training, self.views[key]

@@ -219,8 +219,25 @@ _LEAN = (
 _ROOM = TrainConfig("hg-dagger-q", domain="montezuma", episodes=600)  # fewer than 100,000 LO samples
 
 
-def _room(label: str, algorithm: str) -> Series:
-    return Series(replace(_ROOM, algorithm=algorithm), label)
+def _room(label: str, algorithm: str, instances: str = "random", episodes: int = 600) -> Series:
+    return Series(replace(_ROOM, algorithm=algorithm, instances=instances, episodes=episodes), label)
+
+
+def _room_imitation(name: str, title: str, instances: str, tests: str, episodes: int) -> Group:
+    """Return a group of the imitation algorithms; hg-DAgger has so many episodes, the others cost about as much."""
+    return Group(
+        name,
+        title,
+        _HONEST,
+        ("success-by-log-cost", "cost-by-kind"),
+        (
+            _room("hg-DAgger", "hg-dagger", instances, episodes),
+            _room("h-BC", "h-bc", instances, 40),
+            _room("flat DAgger", "flat-dagger", instances, 80),
+        ),
+        lean=True,
+        tests=tests,
+    )
 
 
 _MONTEZUMA = (
@@ -232,6 +249,16 @@ _MONTEZUMA = (
         (_room("hg-DAgger/Q", "hg-dagger-q"), _room("h-DQN", "h-dqn")),
         hybrid=True,
         tests="the 20 starts",
+    ),
+    _room_imitation(
+        "montezuma-imitation", "Montezuma's Revenge, actions learned by imitation", "random", "the 20 starts", 100
+    ),
+    _room_imitation(
+        "montezuma-slips",
+        "Montezuma's Revenge, one action in twenty is random, actions learned by imitation",
+        "slips",
+        "starts with unseen slips",
+        300,
     ),
 )
 

@@ -1,6 +1,7 @@
 """Determines which part of an observation each policy sees, and which network computes its outputs.
 
-This depends on the preset (`DomainUse`) and on the domain's declarations (`waypost.domains.Viewed`).
+This depends on the preset (`DomainUse`) and on the domain's declarations (`waypost.domains.Viewed` and
+`Centered`).
 """
 
 from collections.abc import Callable, Sequence
@@ -8,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from waypost.domains import Domain, Symmetry, View, Viewed, symmetries_of
+from waypost.domains import Centered, Domain, Symmetry, View, Viewed, symmetries_of
 from waypost.trajectory import Observation
 from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec
@@ -83,6 +84,8 @@ def policy_view(domain: Domain, use: DomainUse, network: NetworkSpec, key: Polic
 
 
 def _view(domain: Domain, use: DomainUse, key: PolicyKey) -> View:
+    if use.centered and isinstance(domain, Centered) and key.level != "hi":
+        return domain.centered_view
     if not use.views or not isinstance(domain, Viewed):
         return View(domain.observation_shape, _unchanged)
     return {"hi": domain.hi_view, "lo": domain.lo_view, "flat": domain.flat_view}[key.level]

@@ -41,8 +41,9 @@ LEAN = Preset(
             symmetries=False,
             bf16=False,
         ),
+        from_passed=True,
     ),
-    use=DomainUse(views=True),
+    use=DomainUse(views=True, centered=True),
     warm_start_hybrid=10,
     monitoring=Monitoring(share=0.05),
 )
@@ -63,7 +64,8 @@ PAPER = Preset(
             optimizer="rmsprop",
             batch=128,
             discount=0.99,
-            target_every=2_000,
+            target_every=500,  # 2,000 steps, as an update comes every fourth
+            beta_updates=125_000,
             capacity=500_000,
             least=20_000,
             epsilon=((0, 1.0), (200_000, 0.02)),
@@ -71,7 +73,8 @@ PAPER = Preset(
             from_success=True,
             stop_above=0.9,
             symmetries=False,
+            bf16=False,  # a step more costs 1 % of a value (the discount), which bf16 hardly resolves
         ),
-        dqn_of={"stair": {"least": 1_000, "epsilon": ((0, 1.0), (50_000, 0.02))}},
+        dqn_of={"stair": {"least": 1_000, "target_every": 250, "epsilon": ((0, 1.0), (50_000, 0.02))}},
     ),
 )

@@ -1,6 +1,6 @@
 """Find the parts that a preset uses and that a domain does not provide, and say what is used instead."""
 
-from waypost.domains import Ending, Placed, Relabeling, Retracing, Viewed, symmetries_of
+from waypost.domains import Centered, Ending, Placed, Relabeling, Retracing, Viewed, symmetries_of
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.policies.networks import PlanningSpec
 
@@ -26,6 +26,10 @@ def missing_parts(learner: Learner) -> dict[str, str]:
     checks = {
         "symmetries": (wanted and not symmetries_of(domain), "Labels are learned only as they were given."),
         "views": (use.views and not isinstance(domain, Viewed), "Policies see whole observations."),
+        "centered": (
+            use.centered and levels.imitating and not isinstance(domain, Centered),
+            "No view has the agent in the middle.",
+        ),
         "planning": (
             use.planning is not None and not plans,
             "No network plans over places: pictures use the network of Table 1, vectors a dense network.",

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from waypost.domains import Placed, Relabeling, Retracing, Viewed, symmetries_of
+from waypost.domains import Centered, Placed, Relabeling, Retracing, Viewed, symmetries_of
 from waypost_learner.algorithms import ALGORITHMS, Algorithm
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.policies.networks import PlanningSpec
@@ -13,6 +13,7 @@ from waypost_learner.runs.config import TrainConfig
 
 _SWITCHES = frozenset(
     {
+        "centered",
         "from_passed",
         "h_hi",
         "h_lo",
@@ -87,6 +88,10 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
             f"{name} has no subgoals, or none in the domain {domain.name!r} are equal up to a symmetry",
         ),
         "views": (isinstance(domain, Viewed), f"the domain {domain.name!r} declares no views"),
+        "centered": (
+            isinstance(domain, Centered) and levels.imitating and not levels.q_lo,
+            f"{name} has no policy that imitates actions, or the domain {domain.name!r} declares no centered view",
+        ),
         "planning": (bool(planned), f"no policy of {name} has a view of the domain {domain.name!r} that shows places"),
         "relabeling": (
             hi and isinstance(domain, Relabeling | Retracing),

@@ -193,6 +193,13 @@ class Viewed(Protocol):
 
 
 @runtime_checkable
+class Centered(Protocol):
+    """A domain that knows where the agent is in an observation."""
+
+    centered_view: View  # for choosing actions and terminations, with the agent in the middle
+
+
+@runtime_checkable
 class Placed(Protocol):
     """A domain whose states have places."""
 

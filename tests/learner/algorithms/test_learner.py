@@ -14,12 +14,15 @@ from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.views import LO_VIEW
+from waypost_learner.domains.montezuma.domain import MontezumaDomain
 from waypost_learner.policies.datasets import UNLABELED
 from waypost_learner.policies.imitation import Policy, TrainSpec
 from waypost_learner.policies.labels import Labels, LoLabels
 from waypost_learner.policies.levels import Levels
 from waypost_learner.policies.networks import ConvNet, DenseNet, PlanningNet
+from waypost_learner.presets import find_preset
 from waypost_learner.rollout.policy_keys import META, pi
+from waypost_learner.runs.missing_parts import missing_parts
 
 maze = MazeDomain()
 
@@ -120,6 +123,18 @@ def test_what_acts_is_the_average_of_what_was_learned() -> None:
     for acting, expected, last in zip(mu.acting.parameters(), average, mu.network.parameters(), strict=True):
         torch.testing.assert_close(acting, expected)
         assert not torch.equal(acting, last)
+
+
+@pytest.mark.parametrize("levels", [Levels(), Levels(flat=True), Levels(q_lo=True)])
+def test_only_policies_that_imitate_actions_see_the_centered_view(levels: Levels) -> None:
+    domain = MontezumaDomain()
+    learner = Learner(domain, find_preset("lean", domain="montezuma"), seed=0, levels=levels, threads=1)
+    for key, view in learner.views.items():
+        sees_center = key != META and not levels.q_lo
+        assert view.view is (domain.centered_view if sees_center else domain.hi_view)
+    assert missing_parts(Learner(maze, TINY_LEAN.with_values(centered=True), seed=0, threads=1)) == {
+        "centered": "No view has the agent in the middle."
+    }
 
 
 def test_the_segment_that_is_asked_about_is_drawn_by_the_seed_and_the_draw_alone() -> None:

@@ -24,6 +24,7 @@ from waypost_learner.domains.montezuma.env import Instance, MontezumaEnv
 from waypost_learner.domains.montezuma.expert import build, collisions, graph, planning
 from waypost_learner.domains.montezuma.game import ACTIONS, Game, Memory
 from waypost_learner.domains.montezuma.landmarks import DOOR, KEY, STAIR
+from waypost_learner.domains.montezuma.views import changed, figure_at
 from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.policies.labels import Labels
 from waypost_learner.remote.translation import Translator
@@ -103,6 +104,36 @@ def test_an_observation_has_the_last_four_pictures_the_newest_last(
     states = played(instance, carried_out(walk))
     for before, after in pairwise(states):
         assert (after.observation[:-1] == before.observation[1:]).all()
+
+
+@few
+@given(instances, walks)
+def test_the_small_view_shows_the_brightest_of_each_four_pixels_that_differ_from_the_empty_room(
+    instance: Instance, walk: list[tuple[int, int]]
+) -> None:
+    *_, state = played(instance, carried_out(walk))
+    seen, whole = domain.lo_view.observe(state.observation), changed(state.observation)
+    assert (seen.dtype, seen.shape) == (np.uint8, domain.lo_view.shape)
+    np.testing.assert_array_equal(seen, whole.reshape(2, 42, 2, 42, 2).max(axis=(2, 4)))
+    assert 5 < np.count_nonzero(seen[1] > 30) < 100  # the figure and the skull, but not the room
+
+
+@few
+@given(instances, walks)
+def test_the_centered_view_finds_the_figure_where_the_games_memory_says(
+    instance: Instance, walk: list[tuple[int, int]]
+) -> None:
+    misses = []
+    for state in played(instance, carried_out(walk)):
+        if state.view["dying"]:
+            break
+        seen = domain.centered_view.observe(state.observation)
+        assert (seen.dtype, seen.shape) == (np.uint8, domain.centered_view.shape)
+        np.testing.assert_array_equal(seen[2:], domain.lo_view.observe(state.observation))
+        x, y = 0.5266 * state.view["x"] + 1.12, 127.97 - 0.4055 * state.view["y"]  # on 84x84 pixels
+        row, column = figure_at(changed(state.observation)[-1])
+        misses.append(max(abs(row - y), abs(column - x)))
+    assert np.median(misses) < 2
 
 
 def test_no_ops_decide_where_the_skull_is() -> None:

@@ -71,6 +71,7 @@ class LineDomain:
     hi_view: Any = View((CELLS,), whole)
     lo_view: Any = View((CELLS,), whole)
     flat_view: Any = View((CELLS,), whole)
+    centered_view: Any = View((CELLS,), whole)
 
     def __init__(self) -> None:
         self.oracle: Any = LineOracle()

@@ -15,7 +15,7 @@ from waypost_learner.domains.montezuma.landmarks import SIZE
 from waypost_learner.domains.montezuma.oracle import RoomOracle
 from waypost_learner.domains.montezuma.pictures import framed
 from waypost_learner.domains.montezuma.subgoals import SUBGOALS, reached
-from waypost_learner.domains.montezuma.views import SMALL_VIEW
+from waypost_learner.domains.montezuma.views import CENTERED_VIEW, SMALL_VIEW
 
 SLIPS, STICKY = 0.05, 0.25
 _DISTURBED = {"slips": {"slips": SLIPS}, "sticky": {"sticky": STICKY}}
@@ -35,6 +35,7 @@ class MontezumaDomain:
     hi_view: View = SMALL_VIEW
     lo_view: View = SMALL_VIEW
     flat_view: View = SMALL_VIEW
+    centered_view: View = CENTERED_VIEW
 
     def __init__(self) -> None:
         self.oracle = RoomOracle()

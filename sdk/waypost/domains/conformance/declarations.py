@@ -10,6 +10,7 @@ from gymnasium import spaces
 from waypost.domains.conformance.episodes import trials
 from waypost.domains.contract import Domain, Horizons
 from waypost.domains.parts import (
+    Centered,
     Ending,
     Pictured,
     Placed,
@@ -97,6 +98,8 @@ def parts_fit(domain: Domain) -> Iterator[str]:
     if isinstance(domain, Viewed):
         for name in ("hi_view", "lo_view", "flat_view"):
             yield from _view(name, getattr(domain, name), observation)
+    if isinstance(domain, Centered):
+        yield from _view("centered_view", domain.centered_view, observation)
     for number, symmetry in enumerate(symmetries_of(domain)):
         for what, names in (("subgoals", domain.subgoals), ("actions", domain.actions)):
             if sorted(getattr(symmetry, what)) != list(range(len(names))):
