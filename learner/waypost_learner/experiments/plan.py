@@ -219,21 +219,26 @@ _LEAN = (
 _ROOM = TrainConfig("hg-dagger-q", domain="montezuma", episodes=600)  # fewer than 100,000 LO samples
 
 
-def _room(label: str, algorithm: str, instances: str = "random", episodes: int = 600) -> Series:
-    return Series(replace(_ROOM, algorithm=algorithm, instances=instances, episodes=episodes), label)
+def _room(
+    label: str, algorithm: str, instances: str = "random", episodes: int = 600, values: str | None = None
+) -> Series:
+    config = replace(_ROOM, algorithm=algorithm, instances=instances, episodes=episodes, values=values)
+    return Series(config, label)
 
 
-def _room_imitation(name: str, title: str, instances: str, tests: str, episodes: int) -> Group:
-    """Return a group of the imitation algorithms; hg-DAgger has so many episodes, the others cost about as much."""
+def _room_imitation(
+    name: str, title: str, instances: str, tests: str, episodes: int, values: str | None = None
+) -> Group:
+    """Return a group of the imitation algorithms. hg-DAgger has so many episodes; the others cost more with fewer."""
     return Group(
         name,
         title,
         _HONEST,
         ("success-by-log-cost", "cost-by-kind"),
         (
-            _room("hg-DAgger", "hg-dagger", instances, episodes),
+            _room("hg-DAgger", "hg-dagger", instances, episodes, values),
             _room("h-BC", "h-bc", instances, 40),
-            _room("flat DAgger", "flat-dagger", instances, 80),
+            _room("flat DAgger", "flat-dagger", instances, 80, values),
         ),
         lean=True,
         tests=tests,
@@ -251,7 +256,12 @@ _MONTEZUMA = (
         tests="the 20 starts",
     ),
     _room_imitation(
-        "montezuma-imitation", "Montezuma's Revenge, actions learned by imitation", "random", "the 20 starts", 100
+        "montezuma-imitation",
+        "Montezuma's Revenge, actions learned by imitation, every episode inspected",
+        "random",
+        "the 20 starts",
+        150,
+        "monitoring.share=1",  # sampling would end most inspections when 19 of the 20 starts succeed
     ),
     _room_imitation(
         "montezuma-slips",
