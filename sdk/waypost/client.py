@@ -186,7 +186,7 @@ class Client:
     def answer(
         self, assignment: wire.Assignment, answer: wire.Answer, following: wire.Lease | None = None
     ) -> wire.Receipt:
-        """Answer a query. With `following`, the receipt has the next assignment, if there is one."""
+        """Answer a query. With `following`, the receipt has the next assignment, or the problem that prevented it."""
         post = wire.AnswerPost(token=assignment.token, answer=answer, next=following)
         return self._call(wire.Receipt, "POST", f"/assignments/{assignment.id}/answer", post)
 

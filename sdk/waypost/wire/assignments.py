@@ -7,6 +7,7 @@ from pydantic import Field
 from waypost.wire.answers import Answer
 from waypost.wire.queries import Query
 from waypost.wire.runs import Run
+from waypost.wire.system import Problem
 from waypost.wire.words import Kind, Message, Note
 
 __all__ = [
@@ -101,6 +102,11 @@ class Receipt(Message):
     seconds: float = Field(description="The time from lease to answer, in seconds.")
     active_seconds: float = Field(description="The annotator's working time without idle time, in seconds.")
     next: Assignment | None = Field(description="The next assignment, if one was requested and is available.")
+    next_problem: Problem | None = Field(
+        default=None,
+        description="The reason why no next query could be leased; null if none was requested or available. The answer "
+        "is stored all the same.",
+    )
 
 
 class TokenPost(Message):

@@ -6,14 +6,13 @@ from fastapi import APIRouter, Header, Request
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.answers import retraction
+from waypost_server.answers import following, retraction
 from waypost_server.answers import service as answers
 from waypost_server.auth.permissions import AnnotatorCalls
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath
 from waypost_server.http.problems import refusals
-from waypost_server.leases import waiting
 from waypost_server.leases.request import LeaseRequest
 from waypost_server.leases.routes import NO_LIVE_LEASE
 
@@ -48,15 +47,19 @@ async def answer(
     caller: AnnotatorCalls,
     key: Key = None,
 ) -> wire.Receipt:
-    """Answer a query. One transaction stores and charges the answer; the reply comes when the answer is on disk."""
-    following = LeaseRequest.of(body.next, caller.user, context.settings, after=assignment) if body.next else None
+    """Answer a query. One transaction stores and charges the answer; the reply comes when the answer is on disk.
+
+    If the query wanted as `next` cannot be leased, the answer stays accepted, and `next_problem` says why.
+    """
+    wanted = LeaseRequest.of(body.next, caller.user, context.settings, after=assignment) if body.next else None
     post = answers.Post(assignment, caller.user, body.token, body.answer, key, context.settings.idle_seconds)
-    outcome = await context.db.write(lambda tx: answers.answer(tx, post, following))
+    outcome = await context.db.write(lambda tx: answers.answer(tx, post, wanted))
     receipt = outcome.receipt()
-    if following is None or body.next is None or receipt.next is not None or body.next.wait == 0:
+    leased = following.Following(receipt.next, receipt.next_problem)
+    if wanted is None or body.next is None or leased.is_settled or body.next.wait == 0:
         return receipt
-    leased = await waiting.lease(context, request, following, body.next.wait)
-    return receipt.model_copy(update={"next": leased})
+    leased = await following.wait(context, request, wanted, body.next.wait)
+    return receipt.model_copy(update={"next": leased.assignment, "next_problem": leased.problem})
 
 
 @router.post(

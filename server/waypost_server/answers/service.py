@@ -13,6 +13,8 @@ from waypost import prices as pricing
 from waypost import wire
 from waypost.prices import Cost, to_units
 from waypost_server import errors
+from waypost_server.answers import following
+from waypost_server.answers.following import Following
 from waypost_server.db import canonical
 from waypost_server.db.tables import answers, assignments
 from waypost_server.db.tables import queries as query_table
@@ -82,8 +84,8 @@ _CLOSE = (
 )
 
 
-def answer(tx: Tx, post: Post, following: LeaseRequest | None) -> Outcome:
-    """Accept an answer, and lease the annotator's next query if `following` asks for one and there is one.
+def answer(tx: Tx, post: Post, wanted: LeaseRequest | None) -> Outcome:
+    """Accept an answer, and lease the annotator's next query if `wanted` asks for one and there is one.
 
     Sending the same answer again returns the same receipt.
 
@@ -96,7 +98,7 @@ def answer(tx: Tx, post: Post, following: LeaseRequest | None) -> Outcome:
     _check_key(tx, post, case)
     earlier = tx.conn.execute(ANSWER_OF, {"assignment": post.assignment}).one_or_none()
     if earlier is not None:
-        return _repeat(tx, case, earlier, following)
+        return _repeat(tx, case, earlier, wanted)
     names = checks.Names.of(wire.Vocabulary.model_validate_json(case.run.vocabulary))
     checks.check_answer(case.ask, post.answer, names, ["body", "answer"])
     try:
@@ -105,7 +107,7 @@ def answer(tx: Tx, post: Post, following: LeaseRequest | None) -> Outcome:
         _store(tx, post, case, None, Cost(0))
         leases.expire(tx)
         return Outcome(None, refusal)
-    return Outcome(_accept(tx, post, case, following))
+    return Outcome(_accept(tx, post, case, wanted))
 
 
 def _open(tx: Tx, post: Post) -> Case:
@@ -128,7 +130,7 @@ def _check_key(tx: Tx, post: Post, case: Case) -> None:
         raise errors.KeyReused("This Idempotency-Key came before with another answer; use a new one.")
 
 
-def _repeat(tx: Tx, case: Case, earlier: Row[Any], following: LeaseRequest | None) -> Outcome:
+def _repeat(tx: Tx, case: Case, earlier: Row[Any], wanted: LeaseRequest | None) -> Outcome:
     """Return the receipt of an answer that was sent before with the same content."""
     if earlier.revision is None:
         raise errors.LeaseExpired("The lease had expired when this arrived; the query is back in the queue.")
@@ -136,13 +138,15 @@ def _repeat(tx: Tx, case: Case, earlier: Row[Any], following: LeaseRequest | Non
         raise errors.DifferentContent("This assignment has another answer; retract that answer to correct it.")
     if case.query.answer_id != earlier.id:
         raise errors.AnswerRetracted("This answer was retracted.")
-    leased = leased_after(tx, case.assignment.id)
-    if leased is None and following is not None:
-        leased = leases.lease(tx, following)
-    return Outcome(_receipt(earlier, leased))
+    leased = Following(leased_after(tx, case.assignment.id))
+    return Outcome(_receipt(earlier, leased if leased.is_settled else _next(tx, wanted)))
 
 
-def _accept(tx: Tx, post: Post, case: Case, following: LeaseRequest | None) -> wire.Receipt:
+def _next(tx: Tx, wanted: LeaseRequest | None) -> Following:
+    return Following() if wanted is None else following.lease(tx, wanted)
+
+
+def _accept(tx: Tx, post: Post, case: Case, wanted: LeaseRequest | None) -> wire.Receipt:
     """Store and charge the answer, and close the query."""
     cost = pricing.cost(post.answer, wire.Prices.model_validate_json(case.run.prices))
     stored = _store(tx, post, case, case.query.revision, cost)
@@ -173,7 +177,7 @@ def _accept(tx: Tx, post: Post, case: Case, following: LeaseRequest | None) -> w
     if case.run.gold_of is None:
         outbox.announce(tx, "answer.accepted", case.run.id, {"event": event, **data})
     tx.wake(queries.topic(case.query.id), runs.answers_topic(case.run.id))
-    return _receipt(stored, None if following is None else leases.lease(tx, following))
+    return _receipt(stored, _next(tx, wanted))
 
 
 def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> Row[Any]:
@@ -195,12 +199,13 @@ def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> 
     return tx.conn.execute(_INSERT, row).one()
 
 
-def _receipt(stored: Row[Any], leased: wire.Assignment | None) -> wire.Receipt:
+def _receipt(stored: Row[Any], leased: Following) -> wire.Receipt:
     return wire.Receipt(
         query=stored.query_id,
         answer=stored.id,
         units=to_units(stored.units),
         seconds=stored.seconds,
         active_seconds=stored.active_seconds,
-        next=leased,
+        next=leased.assignment,
+        next_problem=leased.problem,
     )

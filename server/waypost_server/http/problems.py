@@ -18,6 +18,8 @@ from waypost_server.errors import Refusal
 log = logging.getLogger("waypost")
 
 MEDIA_TYPE = "application/problem+json"
+INTERNAL = (500, "internal-error", "Internal error")
+"""The status, name and title of a failure of the server itself."""
 
 
 def document(status: int, name: str, title: str, detail: str, **more: Any) -> dict[str, Any]:
@@ -77,7 +79,7 @@ def install(app: FastAPI) -> None:
     async def failed(request: Request, error: Exception) -> JSONResponse:
         log.error("%s %s failed", request.method, request.url.path, exc_info=error)
         detail = "The server failed; its log says why."
-        body = document(500, "internal-error", "Internal error", detail, instance=request.url.path)
+        body = document(*INTERNAL, detail, instance=request.url.path)
         return JSONResponse(body, 500, media_type=MEDIA_TYPE)
 
 

@@ -289,6 +289,8 @@ export interface paths {
         /**
          * Answer
          * @description Answer a query. One transaction stores and charges the answer; the reply comes when the answer is on disk.
+         *
+         *     If the query wanted as `next` cannot be leased, the answer stays accepted, and `next_problem` says why.
          */
         post: operations["answer"];
         delete?: never;
@@ -3624,6 +3626,8 @@ export interface components {
             active_seconds: number;
             /** @description The next assignment, if one was requested and is available. */
             next: components["schemas"]["Assignment"] | null;
+            /** @description The reason why no next query could be leased; null if none was requested or available. The answer is stored all the same. */
+            next_problem: components["schemas"]["Problem"] | null;
         };
         /**
          * RecordPage

@@ -13,6 +13,7 @@ const receipt = (next: Assignment | null): Receipt => ({
   seconds: 2,
   active_seconds: 2,
   next,
+  next_problem: null,
 });
 const LATE = new Refused(409, { type: '/problems/lease-expired', detail: 'Too late.' });
 const PASS = { kind: 'inspect_full', verdict: 'pass' } as const;

@@ -12,7 +12,15 @@ const pending = (assignment: number): PendingAnswer => ({
   attempts: 0,
   answer: { kind: 'inspect_full', verdict: 'pass' },
 });
-const receipt: Receipt = { query: 1, answer: 1, units: 1, seconds: 2, active_seconds: 2, next: null };
+const receipt: Receipt = {
+  query: 1,
+  answer: 1,
+  units: 1,
+  seconds: 2,
+  active_seconds: 2,
+  next: null,
+  next_problem: null,
+};
 
 describe('the outbox', () => {
   beforeEach(() => sessionStorage.clear());

@@ -1,0 +1,67 @@
+"""The query leased with an answer: whatever goes wrong with it, the answer stays accepted."""
+
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+from tests.server.kit import Json, Service, query
+
+
+def answered(service: Service, run: str) -> int:
+    return len(service.learner.get(f"/runs/{run}/answers")["queries"])
+
+
+def break_leasing(service: Service) -> None:
+    """Take away a table that leasing reads and answering does not."""
+    service.db.write_now(lambda tx: tx.conn.exec_driver_sql("ALTER TABLE presence RENAME TO gone"))
+
+
+def deactivate(service: Service) -> None:
+    (abe,) = [user["id"] for user in service.admin.get("/users")["users"] if user["name"] == "abe"]
+    service.admin.call("PATCH", f"/users/{abe}", {"active": False})
+
+
+def test_an_answer_stays_when_the_next_query_is_wanted_from_an_unknown_run(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, query(), query(ordinal=1))
+    held = service.annotator.lease()
+    receipt = service.annotator.answer(held, next={"run": "0123456789ab"})
+    assert receipt["next"] is None
+    assert receipt["next_problem"]["type"] == "/problems/not-found"
+    assert "0123456789ab" in receipt["next_problem"]["detail"]
+    assert answered(service, run) == 1
+    assert service.learner.costs(run)["total"] == 1
+    again = service.annotator.answer(held, next={})
+    assert (again["answer"], again["next_problem"]) == (receipt["answer"], None)
+    assert again["next"]["query"]["ask"]["ordinal"] == 1
+
+
+def test_an_answer_stays_when_leasing_fails(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, query(), query(ordinal=1))
+    held = service.annotator.lease()
+    break_leasing(service)
+    _check_kept(service, run, service.annotator.answer(held, next={}))
+
+
+@pytest.mark.parametrize("goes_wrong", [deactivate, break_leasing])
+def test_an_answer_stays_when_waiting_for_the_next_query_fails(
+    service: Service, goes_wrong: Callable[[Service], None]
+) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, query())
+    held = service.annotator.lease()
+    with ThreadPoolExecutor() as pool:
+        waiting = pool.submit(service.annotator.answer, held, next={"wait": 30})
+        time.sleep(0.3)
+        goes_wrong(service)
+        _check_kept(service, run, waiting.result())
+
+
+def _check_kept(service: Service, run: str, receipt: Json) -> None:
+    assert receipt["next"] is None
+    assert receipt["next_problem"]["status"] in {401, 500, 503}
+    assert receipt["next_problem"]["detail"].startswith("The answer is stored, but the next query could not be leased")
+    assert "Nothing was stored" not in receipt["next_problem"]["detail"]
+    assert answered(service, run) == 1
