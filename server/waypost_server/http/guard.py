@@ -1,4 +1,7 @@
-"""The outermost middleware: accepted host names, limits on request bodies, and security headers."""
+"""The outermost middleware: accepted host names, limits on request bodies, security headers, and failures.
+
+Starlette's own handler of failures runs outside of all middleware, where the security headers would be missing.
+"""
 
 import asyncio
 import json
@@ -32,6 +35,14 @@ def host_name(header: str) -> str:
     return (name if header.startswith("[") and closed else header.partition(":")[0]).lower()
 
 
+def _add_headers(message: Message, path: str) -> None:
+    headers = MutableHeaders(scope=message)
+    for name, value in HEADERS.items():
+        headers.setdefault(name, value)
+    if path.startswith("/api/"):
+        headers.setdefault("Cache-Control", "no-store")
+
+
 class Guard:
     """ASGI middleware that refuses requests that must not reach the app."""
 
@@ -42,7 +53,7 @@ class Guard:
         self._body_seconds = body_seconds
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Refuse the request, or read its body and pass it on; add headers to the response."""
+        """Refuse the request, or read its body and pass it on; add headers to the response, also if the app fails."""
         if scope["type"] == "websocket":
             await self._socket(scope, receive, send)
             return
@@ -50,23 +61,32 @@ class Guard:
             await self._app(scope, receive, send)
             return
 
+        started = False
+
         async def send_with_headers(message: Message) -> None:
+            nonlocal started
             if message["type"] == "http.response.start":
-                headers = MutableHeaders(scope=message)
-                for name, value in HEADERS.items():
-                    headers.setdefault(name, value)
-                if scope["path"].startswith("/api/"):
-                    headers.setdefault("Cache-Control", "no-store")
+                started = True
+                _add_headers(message, scope["path"])
             await send(message)
 
+        try:
+            await self._request(scope, receive, send_with_headers)
+        except Exception as error:
+            response = problems.failed(scope["method"], scope["path"], error)
+            if not started:
+                await response(scope, receive, send_with_headers)
+            raise
+
+    async def _request(self, scope: Scope, receive: Receive, send: Send) -> None:
         try:
             self._check_host(scope)
             body = await self._body(scope, receive)
         except errors.Refusal as refusal:
-            await problems.render(refusal, scope["path"])(scope, receive, send_with_headers)
+            await problems.render(refusal, scope["path"])(scope, receive, send)
             return
         if body is not None:
-            await self._app(scope, replayed(body, receive), send_with_headers)
+            await self._app(scope, replayed(body, receive), send)
 
     async def _socket(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Refuse a socket to another host, or pass it on. Uvicorn limits the size of its messages."""

@@ -41,6 +41,13 @@ def render(refusal: Refusal, instance: str | None = None) -> JSONResponse:
     return JSONResponse(body, refusal.status, headers, MEDIA_TYPE)
 
 
+def failed(method: str, path: str, error: Exception) -> JSONResponse:
+    """Log a failure of the server, and return the response, which says nothing about its cause."""
+    log.error("%s %s failed", method, path, exc_info=error)
+    body = document(*INTERNAL, "The server failed; its log says why.", instance=path)
+    return JSONResponse(body, 500, media_type=MEDIA_TYPE)
+
+
 def field_path(location: tuple[str | int, ...]) -> list[str | int]:
     """Return the path of a field, without the tags that pydantic adds for members of a union."""
     last = len(location) - 1
@@ -58,7 +65,7 @@ def invalid(error: RequestValidationError) -> dict[str, Any]:
 
 
 def install(app: FastAPI) -> None:
-    """Make the app answer every error with a problem document."""
+    """Make the app answer every error of a request with a problem document. `http.guard` answers its own failures."""
 
     @app.exception_handler(Refusal)
     async def refused(request: Request, error: Refusal) -> JSONResponse:
@@ -74,13 +81,6 @@ def install(app: FastAPI) -> None:
         body = document(error.status_code, title.lower().replace(" ", "-"), title, str(error.detail))
         headers: Mapping[str, str] | None = error.headers
         return JSONResponse(body | {"instance": request.url.path}, error.status_code, headers, MEDIA_TYPE)
-
-    @app.exception_handler(Exception)
-    async def failed(request: Request, error: Exception) -> JSONResponse:
-        log.error("%s %s failed", request.method, request.url.path, exc_info=error)
-        detail = "The server failed; its log says why."
-        body = document(*INTERNAL, detail, instance=request.url.path)
-        return JSONResponse(body, 500, media_type=MEDIA_TYPE)
 
 
 def refusals(*kinds: type[Refusal]) -> dict[int | str, dict[str, Any]]:

@@ -140,6 +140,10 @@ def test_a_failure_of_the_server_says_nothing_of_its_inside(sqlite_url: str, mon
         reply = service.client.get(f"{API}/runs", headers=service.viewer.headers)
     assert (reply.status_code, reply.json()["type"]) == (500, "/problems/internal-error")
     assert "secret" not in reply.text
+    assert reply.headers["content-type"] == "application/problem+json"
+    assert "default-src 'none'" in reply.headers["content-security-policy"]
+    assert reply.headers["x-content-type-options"] == "nosniff"
+    assert reply.headers["cache-control"] == "no-store"
 
 
 # --- the page
