@@ -33,6 +33,7 @@ from waypost_server.users import session_routes as sessions
 from waypost_server.watch import event_routes as event_streams
 from waypost_server.watch import routes as watch
 from waypost_server.watch import system_routes as system
+from waypost_server.watch.readiness import Readiness
 from waypost_server.webhooks import routes as webhooks
 from waypost_server.webhooks.courier import delivering
 
@@ -83,6 +84,7 @@ async def _lifespan(app: FastAPI, settings: Settings) -> AsyncIterator[None]:
     app.state.attempts = LoginAttempts(settings.login_failures)
     app.state.practice = await open_practice(db, settings.practice, settings.max_frame_bytes)
     app.state.relay = Relay()
+    app.state.readiness = Readiness(db)
     reaper = asyncio.create_task(_end_expired_leases(app.state.context))
     try:
         async with delivering(app.state.context):

@@ -58,7 +58,13 @@ class GroupCommit:
         self._thread.start()
 
     def submit(self, work: Work[T]) -> Future[T]:
-        """Queue a transaction; the future resolves after its commit."""
+        """Queue a transaction; the future resolves after its commit.
+
+        Raises:
+            StorageFailed: the thread has stopped, so the future would never resolve.
+        """
+        if not self._thread.is_alive():
+            raise errors.StorageFailed("The server's writer has stopped, so nothing can be stored: restart the server.")
         future: Future[T] = Future()
         self._jobs.put(Job(work, future))
         return future

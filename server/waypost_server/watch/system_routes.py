@@ -2,23 +2,16 @@
 
 from fastapi import APIRouter
 from fastapi.responses import PlainTextResponse
-from sqlalchemy import select
 
 from waypost import wire
 from waypost_server import errors
 from waypost_server.auth.permissions import AnyoneCalls
-from waypost_server.db.tables import runs
-from waypost_server.db.transaction import Tx
 from waypost_server.http.context import VERSION, Ctx
 from waypost_server.http.problems import refusals
 from waypost_server.watch import metrics
+from waypost_server.watch.readiness import Ready
 
 router = APIRouter(tags=["system"])
-
-
-def _check_readable(tx: Tx) -> None:
-    """Read a row of `runs`, to check that the database answers and has the tables."""
-    tx.conn.execute(select(runs.c.id).limit(1)).all()
 
 
 @router.get("/healthz", operation_id="healthz")
@@ -28,9 +21,9 @@ async def healthz() -> wire.Health:
 
 
 @router.get("/readyz", operation_id="readyz", responses=refusals(errors.StorageFailed))
-async def readyz(context: Ctx) -> wire.Health:
-    """Report that the database answers and has this version's tables."""
-    await context.db.read(_check_readable)
+async def readyz(readiness: Ready) -> wire.Health:
+    """Report that the database answers, has this version's tables and can be written. One check serves a second."""
+    await readiness.check()
     return wire.Health(status="ok", version=VERSION)
 
 

@@ -1045,7 +1045,7 @@ export interface paths {
         };
         /**
          * Readyz
-         * @description Report that the database answers and has this version's tables.
+         * @description Report that the database answers, has this version's tables and can be written. One check serves a second.
          */
         get: operations["readyz"];
         put?: never;
