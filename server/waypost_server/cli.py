@@ -56,12 +56,6 @@ def opened(url: str) -> Iterator[Database]:
         db.close()
 
 
-def administrator_url(db: Database, base: str, seconds: float) -> str:
-    """Return a one-time link that logs in an administrator; create the user `admin` if there is none."""
-    name = db.write_now(users.ensure_administrator).name
-    return login_url(db, base, name, "admin", seconds)
-
-
 def login_url(db: Database, base: str, name: str, role: wire.Role, seconds: float) -> str:
     """Return a one-time link that logs in the user with this name; create the user if there is none."""
     user = db.write_now(lambda tx: users.ensure_user(tx, name, role))
@@ -69,30 +63,36 @@ def login_url(db: Database, base: str, name: str, role: wire.Role, seconds: floa
     return f"{base.rstrip('/')}/login#{link.code}"
 
 
-def serve_app(settings: Settings, host: str, port: int) -> None:
-    """Serve until told to stop; print a link that logs in an administrator.
+def serve_app(settings: Settings, host: str, port: int, *, login_link: bool) -> None:
+    """Serve until told to stop. Print a login link for an administrator if `login_link` or if none ever logged in.
 
     Raises:
         CannotServe, BadDatabase, NewerStore: with one sentence for the user.
     """
     with closing(serving.bind(host, port)) as bound:
-        _serve(settings, host, bound)
+        _serve(settings, host, bound, login_link)
 
 
-def _serve(settings: Settings, host: str, bound: socket.socket) -> None:
+def _serve(settings: Settings, host: str, bound: socket.socket, login_link: bool) -> None:
     named = () if host in {"0.0.0.0", "::"} else (host,)  # noqa: S104 - compared, not bound
     chosen = settings.model_copy(update={"hosts": (*settings.hosts, *named)})
-    db = Database(chosen.database)
-    try:
-        link = administrator_url(db, serving.url_of(bound), chosen.link_seconds)
-    finally:
-        db.close()
+    with closing(Database(chosen.database)) as db:
+        welcome = _welcome(db, serving.url_of(bound), chosen.link_seconds, login_link)
     app = create_app(chosen)  # before the link is printed: while it runs, pydantic sometimes swallows a Ctrl-C
     typer.echo(f"Waypost serves {db.url.render_as_string()} at {serving.url_of(bound)}")
-    typer.echo(f"Log in with this link (it works once, for {chosen.link_seconds / 60:.0f} minutes): {link}")
+    typer.echo(welcome)
     if chosen.page is None and spa.find() is None:
         typer.echo("The web app is not built; `make web` builds it.")
     serving.foreground(app, bound)
+
+
+def _welcome(db: Database, base: str, seconds: float, login_link: bool) -> str:
+    """Return how to log in. The output of a server is often kept, so a link is in it only if it is needed."""
+    name = db.write_now(users.ensure_administrator).name
+    if not login_link and db.read_now(sessions.administrator_has_logged_in):
+        return f"`waypost login-link {name}` prints a login link."
+    link = login_url(db, base, name, "admin", seconds)
+    return f"Log in with this link (it works once, for {seconds / 60:.0f} minutes): {link}"
 
 
 @app.command()
@@ -101,12 +101,15 @@ def serve(
     port: Annotated[int, typer.Option(min=0, max=65_535, help="The port; 0 for any free port.")] = 8000,
     database: DatabaseOption = DEFAULT_DATABASE,
     lease: Annotated[float | None, typer.Option(help="How long a lease lasts without a renewal, in seconds.")] = None,
+    login_link: Annotated[
+        bool, typer.Option("--login-link", help="Print a login link even if an administrator has logged in before.")
+    ] = False,
 ) -> None:
-    """Serve the API and the web app; print a one-time link that logs in an administrator."""
+    """Serve the API and the web app. Until an administrator has logged in, print a one-time login link."""
     given = {"database": database} | ({} if lease is None else {"lease_seconds": lease})
     try:
         settings = Settings.model_validate(Settings().model_dump() | given)
-        serve_app(settings, host, port)
+        serve_app(settings, host, port, login_link=login_link)
     except ValidationError as error:
         first = error.errors()[0]
         refuse(f"The setting {'.'.join(map(str, first['loc']))} is not valid: {first['msg']}.")

@@ -7,6 +7,8 @@ import socket
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import httpx2
 import pytest
@@ -107,19 +109,36 @@ def test_a_newer_store_is_explained(sqlite_url: str) -> None:
     assert "does not know" in run("serve", "--port", "0", "--database", sqlite_url, status=2)
 
 
-def test_serve_prints_a_link_that_logs_an_administrator_in(sqlite_url: str) -> None:
-    command = [sys.executable, "-u", "-m", "waypost_server.cli", "serve", "--port", "0", "--database", sqlite_url]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+@contextmanager
+def serving(database: str, *options: str) -> Iterator[str]:
+    """Serve in a process of its own; yields the second line that it prints."""
+    command = [sys.executable, "-u", "-m", "waypost_server.cli", "serve", "--port", "0", "--database", database]
+    with subprocess.Popen([*command, *options], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         process.stdout.readline()
-        link = process.stdout.readline().split()[-1]
-        base, _, code = link.partition("/login#")
-        with httpx2.Client(base_url=base, timeout=30) as client:
-            reply = client.post(f"{API}/session", json={"code": code}, headers={"Origin": base})
-            assert (reply.status_code, reply.json()["role"]) == (200, "admin")
-            assert client.get(f"{API}/users").status_code == 200
+        yield process.stdout.readline().strip()
         stopping = time.monotonic()
         process.terminate()
         process.wait(60)
     assert time.monotonic() - stopping < 10
     assert process.returncode == -signal.SIGTERM
+
+
+def log_in(line: str) -> None:
+    """Open the login link at the end of a line, as an administrator."""
+    base, _, code = line.split()[-1].partition("/login#")
+    with httpx2.Client(base_url=base, timeout=30) as client:
+        reply = client.post(f"{API}/session", json={"code": code}, headers={"Origin": base})
+        assert (reply.status_code, reply.json()["role"]) == (200, "admin")
+        assert client.get(f"{API}/users").status_code == 200
+
+
+def test_serve_prints_a_link_for_an_administrator_until_one_has_logged_in(sqlite_url: str) -> None:
+    with serving(sqlite_url) as line:
+        assert "/login#" in line, "nobody has used it"
+    with serving(sqlite_url) as line:
+        log_in(line)
+    with serving(sqlite_url) as line:
+        assert line == "`waypost login-link admin` prints a login link."
+    with serving(sqlite_url, "--login-link") as line:
+        log_in(line)

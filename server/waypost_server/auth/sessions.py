@@ -1,6 +1,6 @@
 """Browser sessions, and the login links that start them."""
 
-from sqlalchemy import select, update
+from sqlalchemy import exists, select, update
 
 from waypost import wire
 from waypost_server import errors
@@ -36,6 +36,12 @@ def redeem(tx: Tx, code: str, seconds: float) -> Secret | None:
         .returning(credentials.c.user_id)
     ).one_or_none()
     return None if used is None else issue(tx, used.user_id, "session", seconds=seconds)
+
+
+def administrator_has_logged_in(tx: Tx) -> bool:
+    """Return whether a browser ever had a session of a user who is an administrator."""
+    session = (credentials.c.kind == "session", credentials.c.user_id == users.c.id, users.c.role == "admin")
+    return bool(tx.conn.execute(select(exists().where(*session))).scalar_one())
 
 
 def why_refused(tx: Tx, code: str) -> errors.Unauthenticated:
