@@ -20,7 +20,7 @@ from waypost_server import serving
 from waypost_server.auth import tokens
 from waypost_server.cli import login_url
 from waypost_server.db.engine import BadDatabase, Database
-from waypost_server.db.schema import NewerStore
+from waypost_server.db.schema import WrongSchema
 from waypost_server.db.tables import queries
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
@@ -104,5 +104,5 @@ def _server_errors() -> Iterator[None]:
     """Turn errors at the server's start into ValueErrors with the same message."""
     try:
         yield
-    except (serving.CannotServe, BadDatabase, NewerStore) as error:
+    except (serving.CannotServe, BadDatabase, WrongSchema) as error:
         raise ValueError(str(error)) from error

@@ -45,7 +45,7 @@ log = logging.getLogger("waypost")
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
-    """Return the app. On start it opens the store and brings it up to this version's schema."""
+    """Return the app. On start it opens the store, which must have this version's schema or be empty."""
     chosen = settings or Settings()
     app = FastAPI(
         title="Waypost",

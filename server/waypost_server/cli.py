@@ -1,9 +1,10 @@
-"""The server's commands: `serve`, and the users, tokens and login links of a store."""
+"""The server's commands: `serve`, and the schema, users, tokens and login links of a store."""
 
 import json
 import socket
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
+from dataclasses import asdict
 from datetime import UTC, datetime
 from typing import Annotated, NoReturn, get_args
 
@@ -14,8 +15,9 @@ from waypost import wire
 from waypost_server import errors, serving
 from waypost_server.app import create_app
 from waypost_server.auth import sessions, tokens
+from waypost_server.db import engine
 from waypost_server.db.engine import BadDatabase, Database
-from waypost_server.db.schema import NewerStore
+from waypost_server.db.schema import NewerStore, WrongSchema
 from waypost_server.gold.practice import BadPractice
 from waypost_server.http import spa
 from waypost_server.settings import Settings
@@ -46,7 +48,7 @@ def opened(url: str) -> Iterator[Database]:
     """Open a store for one command; an error ends the command with a message of one sentence."""
     try:
         db = Database(url)
-    except (BadDatabase, NewerStore) as error:
+    except (BadDatabase, WrongSchema) as error:
         refuse(str(error))
     try:
         yield db
@@ -64,7 +66,9 @@ def login_url(db: Database, base: str, name: str, role: wire.Role, seconds: floa
 
 
 def serve_app(settings: Settings, host: str, port: int, *, login_link: bool) -> None:
-    """Serve until told to stop. Print a login link for an administrator if `login_link` or if none ever logged in.
+    """Migrate the store, and serve it until told to stop.
+
+    Print a login link for an administrator if `login_link` is true or if none has ever logged in.
 
     Raises:
         CannotServe, BadDatabase, NewerStore: with one sentence for the user.
@@ -76,6 +80,7 @@ def serve_app(settings: Settings, host: str, port: int, *, login_link: bool) -> 
 def _serve(settings: Settings, host: str, bound: socket.socket, login_link: bool) -> None:
     named = () if host in {"0.0.0.0", "::"} else (host,)  # noqa: S104 - compared, not bound
     chosen = settings.model_copy(update={"hosts": (*settings.hosts, *named)})
+    engine.migrate(chosen.database)
     with closing(Database(chosen.database)) as db:
         welcome = _welcome(db, serving.url_of(bound), chosen.link_seconds, login_link)
     app = create_app(chosen)  # before the link is printed: while it runs, pydantic sometimes swallows a Ctrl-C
@@ -115,6 +120,25 @@ def serve(
         refuse(f"The setting {'.'.join(map(str, first['loc']))} is not valid: {first['msg']}.")
     except (serving.CannotServe, BadDatabase, NewerStore, BadPractice) as error:
         refuse(str(error))
+
+
+@app.command()
+def migrate(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
+    """Bring a store up to this version's schema. Back it up first: there is no way back."""
+    try:
+        done = engine.migrate(database)
+    except (BadDatabase, NewerStore) as error:
+        refuse(str(error))
+    if as_json:
+        typer.echo(json.dumps(asdict(done)))
+    elif done.before == done.after:
+        typer.echo(f"The store already has schema {done.after}.")
+    else:
+        typer.echo(f"The store has schema {done.after} now; before, it {_had(done.before)}.")
+
+
+def _had(schema: str | None) -> str:
+    return "was empty" if schema is None else f"had {schema}"
 
 
 def _check_role(role: str) -> None:

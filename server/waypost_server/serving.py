@@ -10,7 +10,7 @@ import uvicorn
 from fastapi import FastAPI
 
 from waypost_server.app import create_app
-from waypost_server.db.engine import Database
+from waypost_server.db.engine import Database, migrate
 from waypost_server.play.protocol import MESSAGE_BYTES
 from waypost_server.settings import Settings
 
@@ -84,7 +84,7 @@ def background(settings: Settings, host: str = "127.0.0.1", port: int = 0) -> It
     Raises:
         CannotServe, BadDatabase, NewerStore: with one sentence for the user.
     """
-    Database(settings.database).close()  # errors are raised here, not in the thread
+    migrate(settings.database)  # also so that its errors are raised here, not in the thread
     app = create_app(settings)
     server = Server(app, "warning")
     with closing(bind(host, port)) as bound:

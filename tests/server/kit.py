@@ -10,12 +10,15 @@ from contextlib import contextmanager
 from typing import Any
 
 import httpx2
+from alembic import command
 from fastapi.testclient import TestClient
+from sqlalchemy import create_engine, text
 
 from waypost import wire
 from waypost_server.app import create_app
 from waypost_server.auth import tokens
-from waypost_server.db.engine import Database
+from waypost_server.db import schema
+from waypost_server.db.engine import Database, parse
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
@@ -147,6 +150,26 @@ def in_process(url: str, **settings: Any) -> Iterator[Service]:
     app = create_app(Settings(database=url, hosts=("testserver",), **settings))
     with TestClient(app) as client:
         yield Service(client, app.state.context.db)
+
+
+def make_older_store(url: str) -> None:
+    """Create a store as a version before webhooks left it, with one administrator."""
+    engine = create_engine(parse(url))
+    settings = schema.config()
+    with engine.begin() as conn:
+        settings.attributes["connection"] = conn
+        command.upgrade(settings, "0006")
+        conn.execute(text("INSERT INTO users (name, role, created_at) VALUES ('ann', 'admin', 1.5)"))
+    engine.dispose()
+
+
+def schema_of(url: str) -> str:
+    """Return the schema of a store, without opening it as one."""
+    engine = create_engine(parse(url))
+    with engine.connect() as conn:
+        found = str(conn.execute(text("SELECT version_num FROM alembic_version")).scalar_one())
+    engine.dispose()
+    return found
 
 
 def together(work: Callable[[int], Any], n: int) -> list[Any]:

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 
 import httpx2
 import pytest
-from tests.server.kit import API
+from tests.server.kit import API, make_older_store, schema_of
 from typer.testing import CliRunner
 
 from waypost import wire
@@ -107,6 +107,34 @@ def test_a_newer_store_is_explained(sqlite_url: str) -> None:
     db.write_now(lambda tx: tx.conn.exec_driver_sql("UPDATE alembic_version SET version_num = '9999'"))
     db.close()
     assert "does not know" in run("serve", "--port", "0", "--database", sqlite_url, status=2)
+
+
+def test_no_command_but_migrate_and_serve_changes_the_schema_of_a_store(sqlite_url: str) -> None:
+    at = ("--database", sqlite_url)
+    make_older_store(sqlite_url)
+    for arguments in (
+        ["user", "add", "zoe"],
+        ["user", "list"],
+        ["user", "role", "ann", "admin"],
+        ["user", "deactivate", "ann"],
+        ["user", "reactivate", "ann"],
+        ["token", "create", "ann"],
+        ["token", "list", "ann"],
+        ["token", "revoke", "1"],
+        ["login-link", "ann"],
+    ):
+        assert f"run `waypost migrate --database {sqlite_url}`" in run(*arguments, *at, status=2), arguments
+    assert schema_of(sqlite_url) == "0006"
+    assert json.loads(run("migrate", "--json", *at))["before"] == "0006"
+    assert "ann" in run("user", "list", *at)
+    assert "already has" in run("migrate", *at)
+
+
+def test_serve_migrates_an_older_store(sqlite_url: str) -> None:
+    make_older_store(sqlite_url)
+    with serving(sqlite_url) as line:
+        log_in(line)
+    assert schema_of(sqlite_url) > "0006"
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from waypost_learner.remote.in_process import InProcessTransport
 from waypost_server.app import create_app
 from waypost_server.auth import tokens
 from waypost_server.db.engine import BadDatabase, Database
-from waypost_server.db.schema import NewerStore
+from waypost_server.db.schema import WrongSchema
 from waypost_server.errors import NotFound, Refusal
 from waypost_server.queries import frames
 from waypost_server.runs import curves, listing, service
@@ -129,5 +129,5 @@ def _unusable_store() -> Iterator[None]:
     """Turn the server's errors about a store into ValueErrors with the same message."""
     try:
         yield
-    except (BadDatabase, NewerStore) as error:
+    except (BadDatabase, WrongSchema) as error:
         raise ValueError(str(error)) from error

@@ -30,21 +30,18 @@ class BadDatabase(Exception):
 
 
 class Database:
-    """An open store, brought up to this version's schema."""
+    """An open store with this version's schema, which is created in an empty database."""
 
     def __init__(self, url: str, committed: Callable[[Topics], None] = lambda _: None) -> None:
+        """Open a store.
+
+        Raises:
+            BadDatabase, WrongSchema: with one sentence for the operator.
+        """
         self.url = parse(url)
         lite = self.url.get_backend_name() == "sqlite"
-        self._engine = _sqlite(self.url, writes=True) if lite else _postgresql(self.url)
+        self._engine, _ = _prepared(self.url, schema.create)
         self._read_engine = _sqlite(self.url, writes=False) if lite else self._engine
-        try:
-            schema.upgrade(self._engine)
-        except DBAPIError as error:
-            self._engine.dispose()
-            raise BadDatabase(f"Cannot open {self.url.render_as_string()}: {_first_line(error)}") from None
-        except schema.NewerStore:
-            self._engine.dispose()
-            raise
         self._readers = ThreadPoolExecutor(READERS, "waypost-read")
         self._writer: Writer = (
             GroupCommit(self._engine, committed) if lite else CommittingThreads(self._engine, committed, WRITERS)
@@ -76,6 +73,30 @@ class Database:
         self._readers.shutdown()
         self._read_engine.dispose()
         self._engine.dispose()
+
+
+def migrate(url: str) -> schema.Migrated:
+    """Bring a store up to this version's schema, or create it in an empty database.
+
+    Raises:
+        BadDatabase, NewerStore: with one sentence for the operator.
+    """
+    engine, migrated = _prepared(parse(url), schema.migrate)
+    engine.dispose()
+    return migrated
+
+
+def _prepared(url: URL, prepare: Callable[[Engine], T]) -> tuple[Engine, T]:
+    """Return the engine that writes to a database, and the result of `prepare`; if that fails, close the engine."""
+    engine = _sqlite(url, writes=True) if url.get_backend_name() == "sqlite" else _postgresql(url)
+    try:
+        return engine, prepare(engine)
+    except DBAPIError as error:
+        engine.dispose()
+        raise BadDatabase(f"Cannot open {url.render_as_string()}: {_first_line(error)}") from None
+    except schema.WrongSchema:
+        engine.dispose()
+        raise
 
 
 def parse(text: str) -> URL:

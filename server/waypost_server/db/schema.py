@@ -1,19 +1,36 @@
-"""Upgrades the schema of a store when the database is opened."""
+"""The schema of a store: creates it in an empty database, and migrates a store of an older version on request."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from alembic import command
 from alembic.config import Config
 from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import Engine, text
+from sqlalchemy import Connection, Engine, text
 
 MIGRATIONS = Path(__file__).parent / "migrations"
 LOCK = 7_296_011  # an arbitrary number; with it, servers that start at the same time migrate one after the other
 
 
-class NewerStore(Exception):
+class WrongSchema(Exception):
+    """The store has the schema of another version. The message says what to do."""
+
+
+class NewerStore(WrongSchema):
     """The store was written by a newer version."""
+
+
+class OlderStore(WrongSchema):
+    """The store was written by an older version and was not migrated."""
+
+
+@dataclass(frozen=True)
+class Migrated:
+    """The schema of a store before and after a migration; before is None for an empty database."""
+
+    before: str | None
+    after: str
 
 
 def config() -> Config:
@@ -24,22 +41,54 @@ def config() -> Config:
     return found
 
 
-def upgrade(engine: Engine) -> None:
+def create(engine: Engine) -> None:
+    """Create this version's schema in an empty database; leave a store of this version as it is.
+
+    Raises:
+        NewerStore, OlderStore: the store has another schema.
+    """
+    with engine.begin() as conn:
+        before, newest = _lock(conn), _newest()
+        if before is None:
+            _upgrade(conn)
+        elif before != newest:
+            raise OlderStore(
+                f"The store has schema {before}, and this version of Waypost uses {newest}: back it up, stop its "
+                f"servers, and run `waypost migrate --database {engine.url.render_as_string()}`."
+            )
+
+
+def migrate(engine: Engine) -> Migrated:
     """Apply the migrations that a store lacks, in one transaction.
 
     Raises:
-        NewerStore: the store has a revision that this version does not know.
+        NewerStore: the store has a schema that this version does not know.
     """
-    settings = config()
-    known = {script.revision for script in ScriptDirectory.from_config(settings).walk_revisions()}
     with engine.begin() as conn:
-        if engine.dialect.name == "postgresql":
-            conn.execute(text("SELECT pg_advisory_xact_lock(:lock)"), {"lock": LOCK})
-        current = set(MigrationContext.configure(conn).get_current_heads())
-        if current - known:
-            raise NewerStore(
-                f"The store has schema {', '.join(sorted(current))}, which this version of Waypost does not know: "
-                "use the newer version that wrote it, or another store."
-            )
-        settings.attributes["connection"] = conn
-        command.upgrade(settings, "head")
+        before = _lock(conn)
+        _upgrade(conn)
+    return Migrated(before, _newest())
+
+
+def _newest() -> str:
+    return str(ScriptDirectory.from_config(config()).get_current_head())
+
+
+def _lock(conn: Connection) -> str | None:
+    """Keep others from migrating until the end of the transaction; return the store's schema, None if it is empty."""
+    if conn.dialect.name == "postgresql":
+        conn.execute(text("SELECT pg_advisory_xact_lock(:lock)"), {"lock": LOCK})
+    before = MigrationContext.configure(conn).get_current_revision()
+    known = {script.revision for script in ScriptDirectory.from_config(config()).walk_revisions()}
+    if before is not None and before not in known:
+        raise NewerStore(
+            f"The store has schema {before}, which this version of Waypost does not know: "
+            "use the newer version that wrote it, or another store."
+        )
+    return before
+
+
+def _upgrade(conn: Connection) -> None:
+    settings = config()
+    settings.attributes["connection"] = conn
+    command.upgrade(settings, "head")

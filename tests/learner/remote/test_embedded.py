@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from tests.learner.kit import corridor, store
+from tests.server.kit import make_older_store, schema_of
 
 from waypost_learner.remote.embedded import embedded, stored_runs
 from waypost_learner.runs.training import train
@@ -30,3 +31,15 @@ def test_a_file_that_is_no_store_is_refused_in_the_servers_words(tmp_path: Path,
     file.write_text("no database, but long enough to be looked at as one " * 20)
     with pytest.raises(ValueError, match=r"^Cannot open sqlite:///.*notes\.db"), opened(file):
         pass
+
+
+@pytest.mark.parametrize("opened", [embedded, stored_runs])
+def test_a_store_of_an_older_version_is_not_changed_without_being_asked(tmp_path: Path, opened) -> None:  # type: ignore[no-untyped-def]
+    url = f"sqlite:///{tmp_path / 'old.db'}"
+    make_older_store(url)
+    with (
+        pytest.raises(ValueError, match=r"run `waypost migrate --database sqlite:///.*old\.db`"),
+        opened(tmp_path / "old.db"),
+    ):
+        pass
+    assert schema_of(url) == "0006"

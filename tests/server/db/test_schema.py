@@ -3,15 +3,14 @@
 import threading
 
 import pytest
-from alembic import command
 from alembic.autogenerate import compare_metadata
 from alembic.runtime.migration import MigrationContext
-from sqlalchemy import create_engine, text
+from sqlalchemy import text
+from tests.server.kit import make_older_store, schema_of
 
 from waypost import wire
-from waypost_server.db import schema
-from waypost_server.db.engine import BadDatabase, Database, parse
-from waypost_server.db.schema import NewerStore
+from waypost_server.db.engine import BadDatabase, Database, migrate, parse
+from waypost_server.db.schema import NewerStore, OlderStore
 from waypost_server.db.tables import metadata
 from waypost_server.db.transaction import Tx
 from waypost_server.users import service as users
@@ -62,14 +61,8 @@ def test_opening_a_store_again_changes_nothing(database_url: str) -> None:
 
 
 def test_a_store_from_before_webhooks_opens_with_all_that_it_has(database_url: str) -> None:
-    url = parse(database_url)
-    engine = create_engine(url)
-    settings = schema.config()
-    with engine.begin() as conn:
-        settings.attributes["connection"] = conn
-        command.upgrade(settings, "0006")
-        conn.execute(text("INSERT INTO users (name, role, created_at) VALUES ('ann', 'admin', 1.5)"))
-    engine.dispose()
+    make_older_store(database_url)
+    migrate(database_url)
     db = Database(database_url)
     assert db.read_now(users.list_users).users[0].name == "ann"
     wanted = wire.WebhookCreate(url="https://hooks.example.org/")
@@ -78,13 +71,25 @@ def test_a_store_from_before_webhooks_opens_with_all_that_it_has(database_url: s
     db.close()
 
 
+def test_a_store_of_an_older_version_is_only_migrated_on_request(database_url: str) -> None:
+    make_older_store(database_url)
+    for _ in range(2):
+        with pytest.raises(OlderStore, match=r"schema 0006.*run `waypost migrate --database"):
+            Database(database_url)
+    assert schema_of(database_url) == "0006"
+    assert migrate(database_url).before == "0006"
+    again = migrate(database_url)
+    assert again.before == again.after == schema_of(database_url)
+
+
 def test_a_store_of_a_newer_version_is_refused_and_left_as_it_is(database_url: str) -> None:
     db = Database(database_url)
     db.write_now(lambda tx: tx.conn.execute(text("UPDATE alembic_version SET version_num = '9999'")))
     db.close()
     for _ in range(2):
-        with pytest.raises(NewerStore, match="schema 9999, which this version of Waypost does not know"):
-            Database(database_url)
+        for use in (Database, migrate):
+            with pytest.raises(NewerStore, match="schema 9999, which this version of Waypost does not know"):
+                use(database_url)
 
 
 def test_servers_that_start_together_migrate_once(database_url: str) -> None:
