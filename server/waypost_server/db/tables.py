@@ -135,13 +135,18 @@ queries = Table(
     UniqueConstraint("run_id", "episode", "ordinal"),
     sqlite_autoincrement=True,
 )
+# Each has the order in which queries are leased: from any run, from one run, and from one episode (follow-ups).
+_open = text("state = 'open'")
+_in_order = (queries.c.run_priority.desc(), queries.c.priority.desc(), queries.c.id)
+Index("ix_queries_next", *_in_order, sqlite_where=_open, postgresql_where=_open)
+Index("ix_queries_run_next", queries.c.run_id, *_in_order, sqlite_where=_open, postgresql_where=_open)
 Index(
-    "ix_queries_next",
-    queries.c.run_priority.desc(),
-    queries.c.priority.desc(),
-    queries.c.id,
-    sqlite_where=text("state = 'open'"),
-    postgresql_where=text("state = 'open'"),
+    "ix_queries_episode_next",
+    queries.c.run_id,
+    queries.c.episode,
+    *_in_order,
+    sqlite_where=_open,
+    postgresql_where=_open,
 )
 Index("ix_queries_run_state", queries.c.run_id, queries.c.state, queries.c.episode)
 Index("ix_queries_run", queries.c.run_id, queries.c.id)
