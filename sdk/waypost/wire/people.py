@@ -182,9 +182,11 @@ class Numbers(Message):
     total: Tally
     today: Tally
     week: Tally = Field(description="Today and the six days before.")
-    gold: int = Field(description="The number of answers to gold queries.")
+    gold: int = Field(
+        description="The number of answered gold queries. In the caller's own numbers, it grows in steps of ten."
+    )
     agreement: float | None = Field(
-        description="The share of correct labels in answers to gold queries, 0 to 1; null if there are none."
+        description="The share of correct labels in first answers to gold queries, 0 to 1; null if there are none."
     )
     by_kind: list[NumbersOfKind] = Field(description="The statistics for each kind of query that they answered.")
 

@@ -12,7 +12,6 @@ from waypost_server.db.tables import IS_LIVE, assignments
 from waypost_server.db.tables import ledger as ledger_table
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.transaction import Tx
-from waypost_server.gold import schedule
 from waypost_server.leases.assignments import find, view
 from waypost_server.leases.service import grant
 from waypost_server.queries import service as queries
@@ -47,9 +46,7 @@ def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Se
         raise errors.AnswerUsed("The learner has used this answer, so it can no longer be retracted.")
     if run.state == "finished":
         raise errors.RunFinished("The run is finished, so its answers can no longer be retracted.")
-    if run.gold_of is not None:
-        schedule.unscore(tx, query.id)
-    else:
+    if run.gold_of is None:
         _refund(tx, run, query, given)
     tx.conn.execute(
         update(query_table)

@@ -153,7 +153,10 @@ def _show(tx: Tx, user: int, chosen: Row[*tuple[Any, ...]], due: Row[Any]) -> in
 
 
 def score(tx: Tx, query: int, answer: wire.Answer) -> None:
-    """Score an answer to a gold query: store how many of its labels are right."""
+    """Score the first answer to a gold query: store how many of its labels are right.
+
+    The score stays when the answer is retracted. Otherwise an annotator could try answers until one is right.
+    """
     accepted = (
         select(gold.c.accepted)
         .join(gold_showings, gold_showings.c.gold_id == gold.c.id)
@@ -161,15 +164,8 @@ def score(tx: Tx, query: int, answer: wire.Answer) -> None:
     )
     known = scoring.KNOWN.validate_json(tx.conn.execute(accepted).scalar_one())
     marks = scoring.marks(known, answer)
-    _set_score(tx, query, len(marks), sum(mark.is_right for mark in marks))
-
-
-def unscore(tx: Tx, query: int) -> None:
-    """Delete the score of an answer that was retracted."""
-    _set_score(tx, query, None, None)
-
-
-def _set_score(tx: Tx, query: int, n_labels: int | None, n_right: int | None) -> None:
     tx.conn.execute(
-        update(gold_showings).where(gold_showings.c.query_id == query).values(n_labels=n_labels, n_right=n_right)
+        update(gold_showings)
+        .where(gold_showings.c.query_id == query, gold_showings.c.n_labels.is_(None))
+        .values(n_labels=len(marks), n_right=sum(mark.is_right for mark in marks))
     )

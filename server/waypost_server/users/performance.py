@@ -1,4 +1,7 @@
-"""Annotators' performance: number of answers, speed, and accuracy on gold queries. Computed in SQL."""
+"""Annotators' performance: number of answers, speed, and accuracy on gold queries. Computed in SQL.
+
+Answers that were retracted do not count, except on gold queries: there the first answer counts, whatever became of it.
+"""
 
 import statistics
 from collections import defaultdict
@@ -9,8 +12,10 @@ from sqlalchemy import Row, Select, and_, case, func, select
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.tables import answers, gold_showings, queries, users
+from waypost_server.db.tables import answers, queries, users
 from waypost_server.db.transaction import Tx
+from waypost_server.gold import results
+from waypost_server.gold.results import Results
 
 DAY = 86_400.0
 WEEK_DAYS = 7
@@ -48,11 +53,9 @@ def _by_kind(midnight: float) -> Select[Any]:
     mine = (answers.c.user_id, queries.c.kind)
     given = (
         select(answers.c.user_id, queries.c.kind, answers.c.units, answers.c.seconds, answers.c.created_at)
-        .add_columns(gold_showings.c.n_labels, gold_showings.c.n_right)
         .add_columns(func.row_number().over(order_by=answers.c.seconds, partition_by=mine).label("rank"))
         .add_columns(func.count().over(partition_by=mine).label("n"))
         .join(queries, queries.c.answer_id == answers.c.id)
-        .outerjoin(gold_showings, gold_showings.c.query_id == queries.c.id)
         .subquery()
     )
     today, week = given.c.created_at >= midnight, given.c.created_at >= midnight - (WEEK_DAYS - 1) * DAY
@@ -65,10 +68,6 @@ def _by_kind(midnight: float) -> Select[Any]:
         .add_columns(func.count().filter(today).label("n_today"), _units_where(given, today).label("units_today"))
         .add_columns(func.count().filter(week).label("n_week"), _units_where(given, week).label("units_week"))
         .add_columns(func.avg(case((in_the_middle, given.c.seconds))).label("median"))
-        .add_columns(func.count(given.c.n_labels).label("gold"))
-        .add_columns(func.count().filter(given.c.n_right == given.c.n_labels).label("gold_right"))
-        .add_columns(func.coalesce(func.sum(given.c.n_labels), 0).label("n_labels"))
-        .add_columns(func.coalesce(func.sum(given.c.n_right), 0).label("n_right"))
         .join(users, users.c.id == given.c.user_id)
         .group_by(given.c.user_id, users.c.name, given.c.kind)
         .order_by(users.c.name, given.c.kind)
@@ -81,9 +80,18 @@ def _units_where(given: Any, condition: Any) -> Any:
 
 def of_user(tx: Tx, user: int) -> wire.Numbers:
     """Return one annotator's performance; all numbers are 0 before the first answer."""
+    return _of_user(tx, user, results.of_user(tx, user))
+
+
+def of_self(tx: Tx, user: int) -> wire.Numbers:
+    """Return the performance that an annotator sees of himself: gold queries are added several at a time."""
+    return _of_user(tx, user, results.of_self(tx, user))
+
+
+def _of_user(tx: Tx, user: int, gold: Results) -> wire.Numbers:
     name = tx.conn.execute(select(users.c.name).where(users.c.id == user)).scalar_one()
     rows = tx.conn.execute(_by_kind(_midnight(tx)).where(users.c.id == user)).all()
-    return _numbers(user, name, rows)
+    return _numbers(user, name, rows, gold)
 
 
 def of_everyone(tx: Tx) -> wire.NumbersList:
@@ -91,41 +99,41 @@ def of_everyone(tx: Tx) -> wire.NumbersList:
     by_annotator: dict[tuple[int, str], list[Row[Any]]] = defaultdict(list)
     for row in tx.conn.execute(_by_kind(_midnight(tx))):
         by_annotator[row.user_id, row.name].append(row)
-    return wire.NumbersList(annotators=[_numbers(user, name, rows) for (user, name), rows in by_annotator.items()])
+    gold = results.of_everyone(tx)
+    return wire.NumbersList(
+        annotators=[_numbers(user, name, rows, gold.get(user, {})) for (user, name), rows in by_annotator.items()]
+    )
 
 
 def _midnight(tx: Tx) -> float:
     return tx.now - tx.now % DAY
 
 
-def _numbers(user: int, name: str, rows: Sequence[Row[Any]]) -> wire.Numbers:
+def _numbers(user: int, name: str, rows: Sequence[Row[Any]], gold: Results) -> wire.Numbers:
+    in_all = results.total(gold)
     return wire.Numbers(
         user=user,
         name=name,
         total=_tally(rows, "n", "units"),
         today=_tally(rows, "n_today", "units_today"),
         week=_tally(rows, "n_week", "units_week"),
-        gold=sum(row.gold for row in rows),
-        agreement=_agreement(rows),
-        by_kind=[
-            wire.NumbersOfKind(
-                kind=row.kind,
-                total=_tally([row], "n", "units"),
-                median_seconds=row.median,
-                gold=row.gold,
-                gold_right=row.gold_right,
-                agreement=_agreement([row]),
-            )
-            for row in rows
-        ],
+        gold=in_all.answers,
+        agreement=in_all.agreement,
+        by_kind=[_of_kind(row, gold.get(row.kind, results.NONE)) for row in rows],
+    )
+
+
+def _of_kind(row: Row[Any], gold: results.Result) -> wire.NumbersOfKind:
+    return wire.NumbersOfKind(
+        kind=row.kind,
+        total=_tally([row], "n", "units"),
+        median_seconds=row.median,
+        gold=gold.answers,
+        gold_right=gold.right,
+        agreement=gold.agreement,
     )
 
 
 def _tally(rows: Sequence[Row[Any]], n: str, units: str) -> wire.Tally:
     micro = sum(int(row._mapping[units]) for row in rows)
     return wire.Tally(answers=sum(row._mapping[n] for row in rows), units=to_units(micro))
-
-
-def _agreement(rows: Sequence[Row[Any]]) -> float | None:
-    n_labels = sum(int(row.n_labels) for row in rows)
-    return sum(int(row.n_right) for row in rows) / n_labels if n_labels else None

@@ -762,7 +762,7 @@ export interface paths {
         };
         /**
          * My Numbers
-         * @description Return the caller's performance: number of answers, speed, accuracy on gold queries.
+         * @description Return the caller's performance: number of answers, speed, accuracy on gold queries, ten at a time.
          */
         get: operations["myNumbers"];
         put?: never;
@@ -3053,12 +3053,12 @@ export interface components {
             week: components["schemas"]["Tally"];
             /**
              * Gold
-             * @description The number of answers to gold queries.
+             * @description The number of answered gold queries. In the caller's own numbers, it grows in steps of ten.
              */
             gold: number;
             /**
              * Agreement
-             * @description The share of correct labels in answers to gold queries, 0 to 1; null if there are none.
+             * @description The share of correct labels in first answers to gold queries, 0 to 1; null if there are none.
              */
             agreement: number | null;
             /**

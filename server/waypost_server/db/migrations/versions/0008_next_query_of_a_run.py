@@ -1,12 +1,18 @@
 """Indexes for the next query of one run, and of one episode."""
 
+from typing import Any
+
 import sqlalchemy as sa
 from alembic import op
 
 revision = "0008"
 down_revision = "0007"
 
-ORDER = (sa.literal_column("run_priority DESC"), sa.literal_column("priority DESC"), "id")
+ORDER: tuple[str | sa.ColumnElement[Any], ...] = (
+    sa.literal_column("run_priority DESC"),
+    sa.literal_column("priority DESC"),
+    "id",
+)
 
 
 def upgrade() -> None:
