@@ -130,10 +130,27 @@ def test_the_centered_view_finds_the_figure_where_the_games_memory_says(
         seen = domain.centered_view.observe(state.observation)
         assert (seen.dtype, seen.shape) == (np.uint8, domain.centered_view.shape)
         np.testing.assert_array_equal(seen[2:], domain.lo_view.observe(state.observation))
-        x, y = 0.5266 * state.view["x"] + 1.12, 127.97 - 0.4055 * state.view["y"]  # on 84x84 pixels
-        row, column = figure_at(changed(state.observation)[-1])
-        misses.append(max(abs(row - y), abs(column - x)))
+        misses.append(miss(state))
     assert np.median(misses) < 2
+
+
+@pytest.mark.parametrize("noops", [0, 7, 13])
+def test_the_figure_is_found_on_the_whole_way_to_the_door(noops: int) -> None:
+    state, subgoal, misses = simulator.reset(Instance(noops)), 0, []
+    while not simulator.ended:
+        misses.append(miss(state))
+        if oracle.reached(None, None, state.view, subgoal):
+            subgoal = oracle.good_subgoals(None, state.view)[0]
+        state = simulator.step(oracle.good_actions(None, None, state.view, subgoal)[0])
+    assert len(misses) > 100
+    assert np.mean(np.array(misses) <= 3) > 0.97
+
+
+def miss(state: Any) -> float:
+    """By how many pixels of 84x84 the figure is not where the game's memory says."""
+    x, y = 0.5266 * state.view["x"] + 1.12, 127.97 - 0.4055 * state.view["y"]
+    row, column = figure_at(changed(state.observation)[-1])
+    return float(max(abs(row - y), abs(column - x)))
 
 
 def test_no_ops_decide_where_the_skull_is() -> None:
