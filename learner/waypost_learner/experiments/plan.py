@@ -229,7 +229,7 @@ def _room(
 def _room_imitation(
     name: str, title: str, instances: str, tests: str, episodes: int, values: str | None = None
 ) -> Group:
-    """Return a group of the imitation algorithms. hg-DAgger has so many episodes; the others cost more with fewer."""
+    """Return a group of the imitation algorithms. Interactive ones have so many episodes; h-BC pays for each of its."""
     return Group(
         name,
         title,
@@ -237,8 +237,8 @@ def _room_imitation(
         ("success-by-log-cost", "cost-by-kind"),
         (
             _room("hg-DAgger", "hg-dagger", instances, episodes, values),
-            _room("h-BC", "h-bc", instances, 40),
-            _room("flat DAgger", "flat-dagger", instances, 80, values),
+            _room("h-BC", "h-bc", instances, 100),
+            _room("flat DAgger", "flat-dagger", instances, episodes, values),
         ),
         lean=True,
         tests=tests,
@@ -257,7 +257,7 @@ _MONTEZUMA = (
     ),
     _room_imitation(
         "montezuma-imitation",
-        "Montezuma's Revenge, actions learned by imitation, every episode inspected",
+        "Montezuma's Revenge, learned by imitation, every episode inspected",
         "random",
         "the 20 starts",
         150,
@@ -265,9 +265,9 @@ _MONTEZUMA = (
     ),
     _room_imitation(
         "montezuma-slips",
-        "Montezuma's Revenge, one action in twenty is random, actions learned by imitation",
+        "Montezuma's Revenge, learned by imitation, one action in twenty is random",
         "slips",
-        "starts with unseen slips",
+        "unseen slips",
         300,
     ),
 )
