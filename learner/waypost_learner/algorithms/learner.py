@@ -208,13 +208,13 @@ class Learner:
                     self.data[key].append(replace(row, observation=observe(row.observation)) for row in found)
 
     def _experience_of(self, labels: Labels) -> Iterator[tuple[PolicyKey, Experience]]:
-        """Yield what Q-functions learn from: rollouts, and demonstrated segments, which reached their subgoals."""
+        """Yield what Q-functions learn from: rollouts, and demonstrated segments, which end where they reached."""
         for key, trajectory in labels.experience:
             yield key, self._experience(key, trajectory)
         for segment in chain.from_iterable(labels.demonstrations):
             if segment.subgoal is not None:
-                reached = replace(segment, outcome="reached")
-                yield pi(segment.subgoal), replace(self._experience(pi(segment.subgoal), (reached,)), demonstrated=True)
+                shown = replace(segment, outcome="reached") if segment.terminated else segment
+                yield pi(segment.subgoal), replace(self._experience(pi(segment.subgoal), (shown,)), demonstrated=True)
 
     def _experience(self, key: PolicyKey, trajectory: Trajectory) -> Experience:
         dqn = self._dqn(key)

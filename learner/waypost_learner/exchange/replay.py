@@ -15,6 +15,7 @@ from waypost import wire
 from waypost.domains import Domain, find_domain, place_of
 from waypost.trajectory import Segment, Trajectory
 from waypost_learner.experts.head_start import head_start
+from waypost_learner.rollout.demonstrations import judged
 from waypost_learner.rollout.simulator import Simulator
 from waypost_learner.runs.config import config_of
 from waypost_learner.runs.instances import Instances
@@ -110,6 +111,7 @@ class Replayer:
         given = record.answered.answer.content
         assert isinstance(given, wire.HierDemoAnswer)
         path = self._carried_out(instance, [(segment.subgoal, segment.actions) for segment in given.segments])
+        path = judged(self.domain, instance, path)
         return Replay(record.ask.episode, instance, True, path, (Asked(record, 0, len(path)),))
 
     def _rollout(self, instance: Any, records: Sequence[wire.QueryRecord]) -> Replay:

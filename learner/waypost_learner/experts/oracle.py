@@ -41,7 +41,7 @@ class OracleExpert:
         """Return the oracle's demonstration from a state, given by its JSON view, until the task is accomplished.
 
         An oracle that does not predict the next state acts in the domain's environment, from the start of the instance;
-        then a demonstration may also end with the episode.
+        then a demonstration may also end with the episode. It ends too where no action is good anymore.
 
         Raises:
             ValueError: the oracle cannot demonstrate; the message says what is missing.
@@ -53,15 +53,16 @@ class OracleExpert:
             origin, actions = state, list[Action]()
             while not ended and (not actions or not self._oracle.reached(instance, origin, state, subgoal)):
                 good = self._oracle.good_actions(instance, origin, state, subgoal)
+                if steps and not good:  # what the environment did on the way cannot be undone
+                    ended = True
+                    break
                 actions.append(self._first(good, "good_actions", state))
                 state, over = follow(state, actions[-1])
                 steps += 1
                 ended = over or steps == self._domain.horizons.full or self._oracle.succeeded(instance, state)
-            segments.append(
-                wire.DemoSegment(
-                    subgoal=self._domain.subgoals[subgoal], actions=[self._domain.actions[a] for a in actions]
-                )
-            )
+            names = [self._domain.actions[action] for action in actions]
+            if names:
+                segments.append(wire.DemoSegment(subgoal=self._domain.subgoals[subgoal], actions=names))
         return wire.HierDemoAnswer(kind="hier_demo", segments=segments)
 
     def _first(self, good: Sequence[int], function: str, state: Any) -> int:

@@ -135,8 +135,8 @@ def _flat_rows(trajectory: Trajectory, good_actions: Sequence[Action]) -> Iterab
 
 
 def _demonstrated(segment: Segment) -> LoLabels:
-    """Return the labels of a segment that the expert carried out: its actions, and a termination at its end."""
-    return LoLabels(segment.actions, (*(False for _ in segment.actions), True))
+    """Return the labels of a segment that an expert carried out or passed: its actions, and where it ended."""
+    return LoLabels(segment.actions, (*(False for _ in segment.actions), segment.terminated or segment.final))
 
 
 def _key(symmetry: Symmetry, key: PolicyKey) -> PolicyKey:

@@ -21,6 +21,7 @@ from waypost_learner.algorithms.queries import (
 )
 from waypost_learner.policies.labels import LoLabels
 from waypost_learner.remote.camera import Camera
+from waypost_learner.rollout.demonstrations import judged
 from waypost_learner.rollout.simulator import Simulator
 
 
@@ -136,7 +137,7 @@ class Translator:
                 along = tuple(states[first : first + len(actions) + 1])
                 sigma.append(Segment(subgoal, along, tuple(actions), terminated=subgoal is not None))
             first += len(actions)
-        return tuple(sigma)
+        return judged(self.domain, self.instance, tuple(sigma))
 
     def _states(self, actions: Sequence[int]) -> Sequence[State]:
         """Return the states along actions from the start of the episode, until it ends.

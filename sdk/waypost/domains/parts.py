@@ -29,7 +29,10 @@ class Oracle(Protocol):
         """Return mu*(s): every optimal subgoal in `state`, the preferred one first."""
 
     def good_actions(self, instance: Any, origin: Any, state: Any, subgoal: Subgoal) -> Sequence[Action]:
-        """Return pi*_g(s): every optimal action in `state` toward `subgoal`, the preferred one first."""
+        """Return pi*_g(s): every optimal action in `state` toward `subgoal`, the preferred one first.
+
+        None is optimal where nothing helps anymore, such as in a fall.
+        """
 
     def reached(self, instance: Any, origin: Any, state: Any, subgoal: Subgoal) -> bool:
         """Return beta*_g(s): whether `subgoal` is accomplished in `state`."""

@@ -17,6 +17,7 @@ from typer.testing import CliRunner
 
 from waypost.domains.conformance import check_domain
 from waypost_learner.algorithms import ALGORITHMS
+from waypost_learner.algorithms.queries import HierDemo
 from waypost_learner.cli import app
 from waypost_learner.domains.montezuma import table
 from waypost_learner.domains.montezuma.domain import MontezumaDomain
@@ -26,7 +27,7 @@ from waypost_learner.domains.montezuma.game import ACTIONS, Game, Memory
 from waypost_learner.domains.montezuma.landmarks import DOOR, KEY, STAIR
 from waypost_learner.domains.montezuma.views import changed, figure_at
 from waypost_learner.experts.oracle import OracleExpert
-from waypost_learner.policies.labels import Labels
+from waypost_learner.policies.labels import Labels, rows_of
 from waypost_learner.remote.translation import Translator
 from waypost_learner.rollout.policy_keys import pi
 from waypost_learner.rollout.simulator import Simulator
@@ -70,6 +71,21 @@ def expert_plays(instance: Instance) -> tuple[bool, list[str], list[Any]]:
         good = oracle.good_actions(None, None, views[-1], subgoal)
         views.append(simulator.step(good[0] if good else 0).view)
     return simulator.succeeded, [domain.subgoals[one] for one in subgoals], views
+
+
+def test_a_demonstration_that_a_slip_spoils_ends_there_and_is_not_taken_for_a_success() -> None:
+    slipped = domain.instances("slips").train[85]  # after a slip on the way to the stair, the figure can only die
+    translator = Translator(domain, slipped)
+    start = Simulator(domain).reset(slipped)
+    answer = OracleExpert(domain)(translator.ask(HierDemo(start), 0, 0))
+    shown: Any = translator.answer(answer)
+    last = shown[-1]
+    assert [(one.subgoal, one.outcome) for one in shown] == [(0, None)]
+    assert not oracle.good_actions(None, None, last.states[-1].view, last.subgoal)
+    assert all(oracle.good_actions(None, None, state.view, last.subgoal) for state in last.states[:-1])
+    labels = Labels()
+    labels.append_demonstration(shown)
+    assert rows_of(labels)[pi(last.subgoal)][-1].termination == 0
 
 
 def test_it_keeps_the_contract_and_gymnasiums_checker_finds_nothing() -> None:
