@@ -59,7 +59,7 @@ def test_dialogs_are_accessible(open_page: Open, learner: Learner, scheme: str) 
 def test_runs_are_accessible(open_page: Open, learner: Learner, scheme: str) -> None:
     run = learner.create_run("watched", budget=500.0)
     learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
-    page = open_page(f"/work?run={run}", scheme=scheme)
+    page = open_page(f"/work?run={run}", role="admin", scheme=scheme)
     wait_for_heading(page, ask("inspect_full")["question"])
     page.keyboard.press("f")
     wait_for_heading(page, ask("label_hi")["question"])

@@ -12,7 +12,7 @@ from tests.browser.test_access import violations
 
 def test_a_run_is_followed_live(open_page: Open, learner: Learner) -> None:
     run = learner.create_run("live one", budget=100.0)
-    page = open_page(f"/runs/{run}")
+    page = open_page(f"/runs/{run}", role="viewer")
     expect(page.get_by_text("● live")).to_be_visible()
     expect(page.get_by_text("No episode has been reported yet.")).to_be_visible()
     expect(page.get_by_text("The learner has asked nothing yet.")).to_be_visible()
@@ -37,6 +37,22 @@ def test_a_run_is_followed_live(open_page: Open, learner: Learner) -> None:
     expect(answered).to_contain_text("✗ fail")
     expect(answered).to_contain_text("person-")
     expect(page.get_by_text("of 100 units")).to_be_visible()
+
+
+def test_annotators_watch_a_run_but_not_its_single_queries(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("without queries", budget=100.0)
+    learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
+    learner.report(run, [False, True])
+    wait_for_heading(open_page(f"/work?run={run}"), ask("inspect_full")["question"])
+    page = open_page(f"/runs/{run}")
+    expect(page.get_by_role("slider", name="Success on unseen instances")).to_be_visible()
+    expect(page.get_by_role("listitem").filter(has_text="Inspect_FULL, ep. 0")).to_be_visible()
+    sections = page.get_by_role("navigation", name="This run").get_by_role("link")
+    expect(sections).to_have_text(["Overview", "Overlay"])
+    expect(page.get_by_role("heading", name="Recent queries")).to_be_hidden()
+    expect(page.get_by_role("link", name=re.compile("Inspect_FULL|CSV"))).to_have_count(0)
+    page.goto(f"/runs/{run}/queries")
+    expect(page.get_by_text("Annotators see no single queries")).to_be_visible()
 
 
 def test_pause_and_resume(open_page: Open, learner: Learner) -> None:
@@ -171,7 +187,7 @@ def test_a_run_is_renamed_preferred_limited_and_finished(
 def test_charts_and_tables_are_downloaded(open_page: Open, learner: Learner) -> None:
     run = learner.create_run("<svg onload=alert(1)> & =1+1")
     learner.report(run, [False, True])
-    page = open_page(f"/runs/{run}", scheme="dark")
+    page = open_page(f"/runs/{run}", role="viewer", scheme="dark")
     group = page.get_by_role("group", name="Download Success on unseen instances")
 
     def downloaded(name: str) -> bytes:
@@ -210,7 +226,7 @@ def test_reading_one_chart_as_a_table_leaves_its_neighbours_drawing_beside_its_o
     worker.keyboard.press("p")
     wait_for_heading(worker, "Waiting for the learner")
     learner.report(run, [False, True])
-    page = open_page(f"/runs/{run}")
+    page = open_page(f"/runs/{run}", role="viewer")
 
     def tops() -> list[float]:
         drawings = [page.get_by_role("slider", name=name) for name in ("Success on unseen", "Cost so far")]
@@ -228,7 +244,7 @@ def test_names_are_text(open_page: Open, learner: Learner) -> None:
     name = "<img src=x onerror=alert(1)>"
     run = learner.create_run(name)
     learner.ask(run, ask("inspect_full", question=f"{name}?"))
-    page = open_page(f"/runs/{run}")
+    page = open_page(f"/runs/{run}", role="viewer")
     expect(page.get_by_role("heading", name=name)).to_be_visible()
     wait_for_heading(open_page(f"/work?run={run}"), f"{name}?")
 
@@ -245,7 +261,7 @@ def test_the_configuration_and_what_the_domain_lacks_are_shown(open_page: Open, 
     instead = {"views": "Policies see whole observations.", "places": "There is no repeat penalty."}
     config = {"preset": "lean", "values": "relabeling=false " * 12, "not_provided": instead}
     run = learner.create_run("lacking", config=config)
-    page = open_page(f"/runs/{run}")
+    page = open_page(f"/runs/{run}", role="viewer")
     shown = page.get_by_role("region", name="Configuration")
     expect(shown).to_contain_text("preset lean")
     expect(shown.get_by_role("heading", name="does not provide")).to_be_visible()

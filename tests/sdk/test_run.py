@@ -210,7 +210,7 @@ def test_an_answer_that_is_retracted_first_is_not_read(service):
     asked = run.ask(inspection())
     assignment = service.lease()
     service.annotator.answer(assignment, wire.InspectAnswer(kind="inspect_full", verdict="pass"))
-    asked.latest = service.annotator.query(asked.id)  # the script has seen the answer, but not read it
+    asked.latest = run.client.query(asked.id)  # the script has seen the answer, but not read it
     service.annotator._send("POST", f"/assignments/{assignment.id}/retract", wire.Retract(token=assignment.token))
     assert list(run.answers(wait=0)) == []
     with pytest.raises(TimeoutError):

@@ -11,7 +11,7 @@ from starlette.requests import HTTPConnection
 from waypost.wire import Role
 from waypost_server import errors
 from waypost_server.auth.lookup import Cached, CredentialCache
-from waypost_server.auth.roles import ADMINS, ANNOTATORS, ANYONE, LEARNERS
+from waypost_server.auth.roles import ADMINS, ANNOTATORS, ANYONE, LEARNERS, WATCHERS
 
 COOKIE = "waypost_session"
 
@@ -107,6 +107,7 @@ def refuse_cross_site(connection: HTTPConnection) -> None:
 
 
 AnyoneCalls = Annotated[Caller, Depends(allow(ANYONE))]
+WatcherCalls = Annotated[Caller, Depends(allow(WATCHERS))]
 LearnerCalls = Annotated[Caller, Depends(allow(LEARNERS))]
 AnnotatorCalls = Annotated[Caller, Depends(allow(ANNOTATORS))]
 AdminCalls = Annotated[Caller, Depends(allow(ADMINS))]

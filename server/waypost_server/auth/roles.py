@@ -8,6 +8,8 @@ from waypost_server.db.tables import users
 from waypost_server.db.transaction import Tx
 
 ANYONE: frozenset[Role] = frozenset({"admin", "learner", "annotator", "viewer"})
+# Who may see single queries of runs. Annotators may not, because they could then tell gold queries from others.
+WATCHERS: frozenset[Role] = frozenset({"admin", "learner", "viewer"})
 LEARNERS: frozenset[Role] = frozenset({"admin", "learner"})
 ANNOTATORS: frozenset[Role] = frozenset({"admin", "annotator"})
 ADMINS: frozenset[Role] = frozenset({"admin"})

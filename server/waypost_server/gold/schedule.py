@@ -31,7 +31,7 @@ _own = run_table.alias("own")
 _shadow = run_table.alias("shadow")
 _DUE = (
     select(_own.c.id.label("run"), _own.c.gold_rate, _shadow.c.id.label("shadow"), query_table.c.episode)
-    .add_columns(query_table.c.ordinal, query_table.c.priority)
+    .add_columns(query_table.c.ordinal, query_table.c.priority, query_table.c.created_at)
     .join(_own, _own.c.id == query_table.c.run_id)
     .join(_shadow, _shadow.c.gold_of == _own.c.id)
     .where(query_table.c.id == bindparam("query"), _own.c.gold_rate > 0)
@@ -127,7 +127,7 @@ def _open_showing(tx: Tx, user: int, item: int) -> int | None:
 
 
 def _show(tx: Tx, user: int, chosen: Row[*tuple[Any, ...]], due: Row[Any]) -> int:
-    """Create the query of a new showing in the run's shadow. It looks like a query of the current episode."""
+    """Create the query of a new showing in the run's shadow. It looks like the query that it replaces."""
     disguised = queries.ASK.validate_json(chosen.ask).model_copy(
         update={"episode": due.episode, "ordinal": due.ordinal}
     )
@@ -145,7 +145,7 @@ def _show(tx: Tx, user: int, chosen: Row[*tuple[Any, ...]], due: Row[Any]) -> in
         "reserve": 0,
         "revision": 0,
         "used": False,
-        "created_at": tx.now,
+        "created_at": due.created_at,
     }
     query = int(tx.conn.execute(insert(query_table).values(row).returning(query_table.c.id)).scalar_one())
     tx.conn.execute(insert(gold_showings).values(query_id=query, gold_id=chosen.id, user_id=user))

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query, Request
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.permissions import AnyoneCalls, LearnerCalls
+from waypost_server.auth.permissions import LearnerCalls, WatcherCalls
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath, RowQuery, Seconds
@@ -36,7 +36,7 @@ async def ask(run: str, body: wire.AskList, context: Ctx, _: LearnerCalls) -> wi
 async def list_queries(
     run: str,
     context: Ctx,
-    _: AnyoneCalls,
+    _: WatcherCalls,
     state: wire.QueryState | None = None,
     kind: wire.Kind | None = None,
     episode: RowQuery | None = None,
@@ -49,7 +49,7 @@ async def list_queries(
 
 
 @router.get("/queries/{query}", operation_id="getQuery", responses=refusals(errors.NotFound))
-async def get_query(query: RowPath, request: Request, context: Ctx, _: AnyoneCalls, wait: Seconds = 0) -> wire.Query:
+async def get_query(query: RowPath, request: Request, context: Ctx, _: WatcherCalls, wait: Seconds = 0) -> wire.Query:
     """Return a query; with `wait`, return as soon as it is answered or cancelled."""
     topic = queries.topic(query)
     return await poll(
@@ -67,7 +67,7 @@ async def list_answers(
     run: str,
     request: Request,
     context: Ctx,
-    _: AnyoneCalls,
+    _: WatcherCalls,
     after: RowQuery = 0,
     wait: Seconds = 0,
     limit: Annotated[int, Query(ge=1, le=500)] = 100,

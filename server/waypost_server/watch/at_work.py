@@ -1,10 +1,11 @@
-"""The list of annotators at work, bots included."""
+"""The list of annotators at work, bots included. A gold query is listed as the query that it looks like."""
 
+import json
 from collections import defaultdict
 from collections.abc import Sequence
 from typing import Any
 
-from sqlalchemy import Row, or_, select
+from sqlalchemy import Row, case, func, or_, select
 
 from waypost import wire
 from waypost_server.db.tables import IS_LIVE, assignments, presence, queries, runs, users
@@ -24,17 +25,18 @@ def at_work(tx: Tx, presence_seconds: float, lease_seconds: float, run: str | No
 def _leases_by_user(tx: Tx, lease_seconds: float) -> dict[int, list[tuple[float, wire.Holding]]]:
     """Return each user's leased queries, oldest first, each with the time its lease was last renewed."""
     live = (
-        select(assignments, queries.c.run_id, queries.c.kind, queries.c.episode)
+        select(assignments, queries.c.kind, queries.c.episode)
+        .add_columns(func.coalesce(runs.c.gold_of, runs.c.id).label("run"))
+        .add_columns(case((runs.c.gold_of.is_not(None), queries.c.ask)).label("gold_ask"))
         .join(queries, queries.c.id == assignments.c.query_id)
         .join(runs, runs.c.id == queries.c.run_id)
-        .where(IS_LIVE, assignments.c.expires_at > tx.now, runs.c.gold_of.is_(None))
+        .where(IS_LIVE, assignments.c.expires_at > tx.now)
         .order_by(assignments.c.id)
     )
     leases: dict[int, list[tuple[float, wire.Holding]]] = defaultdict(list)
     for row in tx.conn.execute(live):
-        holding = wire.Holding(
-            query=row.query_id, run=row.run_id, kind=row.kind, episode=row.episode, leased_at=row.leased_at
-        )
+        episode = row.episode if row.gold_ask is None else json.loads(row.gold_ask)["episode"]
+        holding = wire.Holding(query=row.query_id, run=row.run, kind=row.kind, episode=episode, leased_at=row.leased_at)
         leases[row.user_id].append((max(row.leased_at, row.expires_at - lease_seconds), holding))
     return leases
 

@@ -8,6 +8,7 @@ from fastapi.responses import StreamingResponse
 from waypost import wire
 from waypost_server import errors
 from waypost_server.auth.permissions import AnyoneCalls
+from waypost_server.auth.roles import WATCHERS
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.problems import refusals
@@ -36,17 +37,18 @@ async def stream_events(
     run: str,
     request: Request,
     context: Ctx,
-    _: AnyoneCalls,
+    caller: AnyoneCalls,
     after: Annotated[
         int | None, Query(ge=0, le=2**63 - 1, description="Only events after this id; without it, only new events.")
     ] = None,
     last_event_id: Annotated[str | None, Header(max_length=20)] = None,
 ) -> StreamingResponse:
-    """Stream the events of a run, starting after a cursor."""
+    """Stream the events of a run, starting after a cursor. For annotators, `data` is empty."""
     start = int(last_event_id) if last_event_id and last_event_id.isascii() and last_event_id.isdigit() else after
     newest = await context.db.read(lambda tx: events.newest(tx, runs.find(tx, run).id))
     cursor = newest if start is None else start
-    return StreamingResponse(sse.stream_run(context, request, run, cursor), media_type="text/event-stream")
+    stream = sse.stream_run(context, request, run, cursor, with_data=caller.role in WATCHERS)
+    return StreamingResponse(stream, media_type="text/event-stream")
 
 
 @router.get(

@@ -15,7 +15,9 @@ PING_SECONDS = 15.0
 CHANGES_SECONDS = 1.0  # the shortest time between two messages of `stream_changes`
 
 
-async def stream_run(context: Context, request: Request, run: str, cursor: int) -> AsyncIterator[str]:
+async def stream_run(
+    context: Context, request: Request, run: str, cursor: int, *, with_data: bool
+) -> AsyncIterator[str]:
     """Yield the events of a run after a cursor, until the client disconnects or the server stops."""
     clock = asyncio.get_running_loop().time
     quiet_since = clock()
@@ -24,7 +26,8 @@ async def stream_run(context: Context, request: Request, run: str, cursor: int) 
         changed = context.hub.watch(events.topic(run))
         found = await context.db.read(partial(events.after, run=run, cursor=cursor))
         for event in found:
-            yield f"id: {event.id}\nevent: {event.event}\ndata: {event.model_dump_json()}\n\n"
+            shown = event if with_data else event.model_copy(update={"data": {}})
+            yield f"id: {event.id}\nevent: {event.event}\ndata: {shown.model_dump_json()}\n\n"
             cursor = event.id
         if found:
             quiet_since = clock()

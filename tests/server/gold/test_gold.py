@@ -80,7 +80,7 @@ def test_a_gold_query_looks_like_any_other(service: Service) -> None:
         assert gold["query"][field] == other["query"][field]
     assert gold["query"]["ask"]["episode"] == 7
     assert gold["run"]["id"] == run
-    assert service.annotator.get(f"/queries/{gold['query']['id']}")["run"] == run
+    assert service.viewer.get(f"/queries/{gold['query']['id']}")["run"] == run
     assert service.annotator.answer(gold).keys() == service.annotator.answer(other).keys()
     assert service.annotator.answer(gold)["units"] == service.annotator.answer(other)["units"] == 1
     service.annotator.get(f"/runs/{run}/gold", 403)

@@ -58,6 +58,14 @@ def test_what_happens_in_a_run_is_streamed_in_order(real: Service) -> None:
     assert [e["event"] for e in events(real.viewer, run, 2, **{"Last-Event-ID": last_seen})] == names[6:]
 
 
+def test_annotators_learn_that_a_run_changed_but_not_which_query(real: Service) -> None:
+    run = real.learner.create_run()
+    (asked,) = real.learner.ask(run, query())
+    found = events(real.annotator, run, 2)
+    assert [(event["event"], event["data"]) for event in found] == [("run", {}), ("asked", {})]
+    assert events(real.viewer, run, 2)[1]["data"]["query"] == asked["id"]
+
+
 def test_a_stream_brings_news_at_once(database_url: str, start_server: Start) -> None:
     served = start_server(Settings(database=database_url, poll_seconds=60))
     with httpx2.Client(base_url=served.url, timeout=30) as client:

@@ -448,7 +448,7 @@ export interface paths {
         };
         /**
          * Stream Events
-         * @description Stream the events of a run, starting after a cursor.
+         * @description Stream the events of a run, starting after a cursor. For annotators, `data` is empty.
          */
         get: operations["streamEvents"];
         put?: never;

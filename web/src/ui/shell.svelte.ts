@@ -53,3 +53,8 @@ class Shell {
 }
 
 export const shell = new Shell();
+
+/** Return whether a user may see single queries. Annotators may not: they could tell gold queries from others. */
+export function maySeeQueries(me: Me | null): boolean {
+  return me !== null && me.role !== 'annotator';
+}
