@@ -75,7 +75,7 @@ def train(
     environments: Annotated[
         int | None, typer.Option(min=1, help="Environments that step together in training. Default: 1.")
     ] = None,
-    resume: Annotated[bool, typer.Option(help="Continue the newest unfinished run with these options.")] = False,
+    resume: Annotated[bool, typer.Option(help="Continue your newest unfinished run with these options.")] = False,
     name: Annotated[str | None, typer.Option(help="The run's name.")] = None,
     budget: Annotated[float | None, typer.Option(min=0, help="The highest cost of the run, in units.")] = None,
     checkpoints: CheckpointsOption = None,

@@ -85,9 +85,14 @@ class Client:
         """Create a run."""
         return self._call(wire.Run, "POST", "/runs", run)
 
-    def runs(self, text: str = "") -> list[wire.Run]:
-        """Return at most a thousand runs, newest first, with these words in the name, algorithm, domain or id."""
-        return self._call(wire.RunList, "GET", "/runs", params={"limit": 1_000, "text": text}).runs
+    def runs(self, text: str = "", mine: bool = False) -> list[wire.Run]:
+        """Return at most a thousand runs, newest first, with these words in the name, algorithm, domain or id.
+
+        Args:
+            text: the words; none for all runs.
+            mine: whether to return only the runs of this client's user, which it may change.
+        """
+        return self._call(wire.RunList, "GET", "/runs", params={"limit": 1_000, "text": text, "mine": mine}).runs
 
     def run(self, run: str) -> wire.Run:
         """Return a run."""

@@ -9,6 +9,7 @@ from fastapi import APIRouter, FastAPI
 from starlette.middleware.gzip import GZipMiddleware
 
 from waypost_server.answers import routes as answers
+from waypost_server.auth.access import ACCESS
 from waypost_server.auth.attempts import LoginAttempts
 from waypost_server.auth.lookup import CredentialCache
 from waypost_server.db.engine import Database
@@ -64,7 +65,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.include_router(api)
     app.include_router(system.router)
     problems.install(app)
-    description.install(app)
+    description.install(app, {operation: rule.words for operation, rule in ACCESS.items()})
     page.install(app)
     spa.install(app, chosen.page)  # the last, because it handles every other path
     app.add_middleware(GZipMiddleware, minimum_size=GZIP_BYTES, compresslevel=5)

@@ -6,7 +6,7 @@ Refusal
 │   ├── LoginExpired            the login link has expired
 │   └── Deactivated             the account is deactivated
 ├── BudgetExhausted        402  the run's budget has too few units left for the query
-├── Forbidden              403  the role may not do this
+├── Forbidden              403  the role may not do this, or not to this object
 │   ├── NotYours           403  another annotator's assignment
 │   ├── WrongToken         403  not the token of this lease
 │   └── CrossSite          403  a session cookie came from another site
@@ -91,7 +91,7 @@ class BudgetExhausted(Refusal):
 
 
 class Forbidden(Refusal):
-    """The caller's role may not do this."""
+    """The caller may not do this: the role does not suffice, or the run belongs to another learner."""
 
     status, name, title = 403, "forbidden", "Not allowed"
 

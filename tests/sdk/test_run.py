@@ -282,6 +282,14 @@ def test_only_a_run_with_the_same_settings_is_resumed(service, change):
     assert service.start(resume=False).id != run.id
 
 
+def test_the_run_of_another_learner_is_not_resumed_and_cannot_be_changed(service):
+    run = service.start(resume=True)
+    other = service.client(service._token("leo", "learner"))
+    assert waypost.start_run(service.name, client=other, resume=True, **NAMES).id != run.id
+    with pytest.raises(waypost.Refused, match=f"Run {run.id} belongs to lea"):
+        waypost.Run(other, other.run(run.id)).set_budget(1)
+
+
 def test_a_finished_run_is_not_resumed(service):
     run = service.start(resume=True)
     run.finish()

@@ -32,7 +32,7 @@ class RunOptions:
 
     name: str | None = None  # of the run; made from the configuration if None
     budget: float | None = None  # units; no limit if None
-    resume: bool = False  # whether to continue the newest unfinished run of the configuration
+    resume: bool = False  # whether to continue the user's newest unfinished run of the configuration
     checkpoints: Path = Path("checkpoints")
     threads: int | None = None  # CPU threads; one per core if None
     loggers: tuple[str, ...] = ("tensorboard",)
@@ -123,11 +123,11 @@ def _queue(connection: Connection, run: str) -> RunQueue:
 
 
 def _find_or_create_run(setup: Setup, client: Client, options: RunOptions) -> wire.Run:
-    """Return the run to train: with `resume` the newest unfinished run of this configuration, else a new one."""
+    """Return the run to train: with `resume` the user's newest unfinished run of this configuration, else a new one."""
     config = setup.config
     values = config_values(config)
     if options.resume:
-        for run in client.runs():
+        for run in client.runs(mine=True):
             same = settings_of(run.config) == values
             if same and run.state != "finished" and options.name in (None, run.name):
                 return run

@@ -47,7 +47,7 @@ def start_run(
         prices: the prices of the answers. Default: the paper's, 1 unit per label and per inspection.
         budget: the highest total cost, in units; None for no limit.
         episodes: the planned number of episodes, for progress in the web app.
-        resume: whether to continue the newest unfinished run with the same name, algorithm, seed, names, prices and
+        resume: whether to continue your newest unfinished run with the same name, algorithm, seed, names, prices and
             config, if there is one. Queries that it has asked before are then not asked again.
         client: a client to use instead of `server` and `token`.
 
@@ -87,9 +87,9 @@ def _client(server: str | None, token: str | None) -> Client:
 
 
 def _unfinished(client: Client, wanted: wire.RunCreate) -> wire.Run | None:
-    """Return the newest unfinished run with the wanted settings."""
+    """Return the newest unfinished run of this user with the wanted settings."""
     same = ("name", "algorithm", "seed", "vocabulary", "prices", "config")
-    for run in client.runs(text=wanted.name):
+    for run in client.runs(text=wanted.name, mine=True):
         if run.state != "finished" and all(getattr(run, field) == getattr(wanted, field) for field in same):
             return run
     return None

@@ -8,7 +8,7 @@ from waypost import wire
 from waypost_server import errors
 from waypost_server.answers import following, retraction
 from waypost_server.answers import service as answers
-from waypost_server.auth.permissions import AnnotatorCalls
+from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath
@@ -44,7 +44,7 @@ async def answer(
     body: wire.AnswerPost,
     request: Request,
     context: Ctx,
-    caller: AnnotatorCalls,
+    caller: Allowed,
     key: Key = None,
 ) -> wire.Receipt:
     """Answer a query. One transaction stores and charges the answer; the reply comes when the answer is on disk.
@@ -76,7 +76,7 @@ async def answer(
         errors.BudgetExhausted,
     ),
 )
-async def retract(assignment: RowPath, body: wire.Retract, context: Ctx, caller: AnnotatorCalls) -> wire.Assignment:
+async def retract(assignment: RowPath, body: wire.Retract, context: Ctx, caller: Allowed) -> wire.Assignment:
     """Retract an answer that the learner has not used: refund it, and lease its query to the caller again."""
     settings = context.settings
     return await context.db.write(lambda tx: retraction.retract(tx, assignment, caller.user, body, settings))

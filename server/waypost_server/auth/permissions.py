@@ -1,6 +1,5 @@
-"""Permissions: dependencies of routes, which authenticate the caller and check the role."""
+"""Authenticates callers, and checks that their role may call the operation (`auth.access`)."""
 
-from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -10,8 +9,8 @@ from starlette.requests import HTTPConnection
 
 from waypost.wire import Role
 from waypost_server import errors
+from waypost_server.auth.access import ACCESS, check_role
 from waypost_server.auth.lookup import Cached, CredentialCache
-from waypost_server.auth.roles import ADMINS, ANNOTATORS, ANYONE, LEARNERS, WATCHERS
 
 COOKIE = "waypost_session"
 
@@ -46,25 +45,27 @@ async def authenticate(connection: HTTPConnection, cache: CredentialCache) -> Ca
     return Caller(owner.user, owner.name, owner.role, owner.credential, by_cookie)
 
 
-def allow(roles: frozenset[Role]) -> Callable[..., Coroutine[Any, Any, Caller]]:
-    """Return a dependency that admits only these roles.
+async def admit(
+    request: Request,
+    cache: Cached,
+    _token: Annotated[Any, Depends(_bearer)],
+    _session: Annotated[Any, Depends(_cookie)],
+) -> Caller:
+    """Return the caller of an operation, if the table of `auth.access` allows it to the caller's role.
 
     A request with a session cookie that changes something must also come from this server's own web app.
+
+    Raises:
+        Unauthenticated, CrossSite, Forbidden: the caller may not call the operation.
     """
+    caller = await authenticate(request, cache)
+    if caller.by_cookie and request.method not in {"GET", "HEAD"}:
+        refuse_cross_site(request)
+    check_role(ACCESS[request.scope["route"].operation_id], caller.name, caller.role)
+    return caller
 
-    async def check(
-        request: Request,
-        cache: Cached,
-        _token: Annotated[Any, Depends(_bearer)],
-        _session: Annotated[Any, Depends(_cookie)],
-    ) -> Caller:
-        caller = await authenticate(request, cache)
-        if caller.by_cookie and request.method not in {"GET", "HEAD"}:
-            refuse_cross_site(request)
-        check_role(caller, roles)
-        return caller
 
-    return check
+Allowed = Annotated[Caller, Depends(admit)]
 
 
 async def authenticate_socket(socket: HTTPConnection, cache: CredentialCache) -> Caller:
@@ -76,18 +77,8 @@ async def authenticate_socket(socket: HTTPConnection, cache: CredentialCache) ->
     caller = await authenticate(socket, cache)
     if caller.by_cookie:
         refuse_cross_site(socket)
-    check_role(caller, ANNOTATORS | LEARNERS)
+    check_role(ACCESS["play"], caller.name, caller.role)
     return caller
-
-
-def check_role(caller: Caller, roles: frozenset[Role]) -> None:
-    """Refuse a caller who has none of these roles.
-
-    Raises:
-        Forbidden: naming the roles that would be allowed.
-    """
-    if caller.role not in roles:
-        raise errors.Forbidden(f"This needs the role {' or '.join(sorted(roles))}; {caller.name} is {caller.role}.")
 
 
 def refuse_cross_site(connection: HTTPConnection) -> None:
@@ -104,10 +95,3 @@ def refuse_cross_site(connection: HTTPConnection) -> None:
     origin = connection.headers.get("origin", "")
     if origin.partition("://")[2] != connection.headers.get("host"):
         raise errors.CrossSite("With a session cookie, the Origin must be this server's; a program should use a token.")
-
-
-AnyoneCalls = Annotated[Caller, Depends(allow(ANYONE))]
-WatcherCalls = Annotated[Caller, Depends(allow(WATCHERS))]
-LearnerCalls = Annotated[Caller, Depends(allow(LEARNERS))]
-AnnotatorCalls = Annotated[Caller, Depends(allow(ANNOTATORS))]
-AdminCalls = Annotated[Caller, Depends(allow(ADMINS))]

@@ -41,13 +41,14 @@ def agreement() -> ColumnElement[float | None]:
     return case((n_labels > 0, func.sum(gold_showings.c.n_right) * 1.0 / n_labels), else_=None)
 
 
-def add(tx: Tx, run: str, wanted: wire.GoldPost) -> wire.GoldList:
+def add(tx: Tx, run: str, wanted: wire.GoldPost, user: int) -> wire.GoldList:
     """Make queries gold. A query that is already gold stays gold; a retired gold query becomes active again.
 
     Raises:
+        Forbidden: the user may not change the run.
         NotFound, NotAnswered, Unprocessable: a query is not of this run, has no answer, or cannot be gold.
     """
-    row = runs.lock(tx, run)
+    row = runs.lock_own(tx, run, user)
     names = checks.Names.of(wire.Vocabulary.model_validate_json(row.vocabulary))
     items = [_answered(tx, run, query) for query in wanted.answered]
     for place, one in enumerate(wanted.known):
@@ -154,13 +155,14 @@ def _of_row(row: Row[Any]) -> wire.Gold:
     )
 
 
-def retire(tx: Tx, run: str, item: int) -> None:
+def retire(tx: Tx, run: str, item: int, user: int) -> None:
     """Retire a gold query: no annotator gets it any more. Answers to it stay.
 
     Raises:
+        Forbidden: the user may not change the run.
         NotFound: the run has no such gold query.
     """
-    runs.find(tx, run)
+    runs.lock_own(tx, run, user)
     retired = tx.conn.execute(
         update(gold)
         .where(gold.c.id == item, gold.c.run_id == run, gold.c.retired_at.is_(None))

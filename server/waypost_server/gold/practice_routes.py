@@ -6,7 +6,7 @@ from fastapi import APIRouter, Path
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.permissions import AnyoneCalls
+from waypost_server.auth.permissions import Allowed
 from waypost_server.gold.practice import Exercises
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.problems import refusals
@@ -15,14 +15,14 @@ router = APIRouter(prefix="/practice", tags=["practice"], route_class=JsonRoute)
 
 
 @router.get("", operation_id="getPractice")
-async def get_practice(exercises: Exercises, _: AnyoneCalls) -> wire.Practice:
+async def get_practice(exercises: Exercises, _: Allowed) -> wire.Practice:
     """Return the practice queries in the order to answer them."""
     return exercises.questions()
 
 
 @router.post("/{query}", operation_id="practice", responses=refusals(errors.NotFound))
 async def mark_practice(
-    query: Annotated[int, Path(ge=0, le=10_000)], body: wire.PracticeAnswer, exercises: Exercises, _: AnyoneCalls
+    query: Annotated[int, Path(ge=0, le=10_000)], body: wire.PracticeAnswer, exercises: Exercises, _: Allowed
 ) -> wire.Feedback:
     """Return which labels of an answer are right, and why."""
     return exercises.mark(query, body.answer)

@@ -1,6 +1,7 @@
 """The OpenAPI document of the API, complete enough to generate clients from it."""
 
 import json
+from collections.abc import Mapping
 from typing import Any
 
 from fastapi import FastAPI
@@ -24,18 +25,18 @@ PROBLEM = {"$ref": "#/components/schemas/Problem"}
 PLAYED = (wire.PlayTake, wire.PlayOffer, wire.PlayMoves, wire.PlayStates, wire.PlayStage)
 
 
-def install(app: FastAPI) -> None:
-    """Make the app serve this document."""
+def install(app: FastAPI, callers: Mapping[str, str]) -> None:
+    """Make the app serve this document. `callers` says by operation who may call it."""
 
     def build() -> dict[str, Any]:
         if app.openapi_schema is None:
-            app.openapi_schema = document(app)
+            app.openapi_schema = document(app, callers)
         return app.openapi_schema
 
     app.openapi = build  # type: ignore[method-assign]  # FastAPI's own way to extend the document
 
 
-def document(app: FastAPI) -> dict[str, Any]:
+def document(app: FastAPI, callers: Mapping[str, str]) -> dict[str, Any]:
     """Return the app's OpenAPI document."""
     found = get_openapi(
         title=app.title,
@@ -47,6 +48,8 @@ def document(app: FastAPI) -> dict[str, Any]:
     for path in found["paths"].values():
         for operation in path.values():
             _state_problems(operation)
+            if operation["operationId"] in callers:
+                operation["description"] += f"\n\n{callers[operation['operationId']]}"
     for path in found["webhooks"].values():
         for operation in path.values():
             operation["responses"].pop("422")  # FastAPI's own, which no receiver needs to send

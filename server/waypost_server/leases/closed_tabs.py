@@ -1,7 +1,7 @@
 """Closed browser tabs: they receive no new leases, even if a request for one is still on its way.
 
-Leasing locks the user's row FOR SHARE (`auth.roles.check_may_answer`), closing a tab locks it FOR UPDATE, so they run
-one after the other: the tab's last lease either exists already and is released, or it is refused.
+Leasing locks the user's row FOR SHARE (`auth.access.check_still`), closing a tab locks it FOR UPDATE, so they run one
+after the other: the tab's last lease either exists already and is released, or it is refused.
 """
 
 from sqlalchemy import bindparam, delete, exists, select

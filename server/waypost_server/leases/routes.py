@@ -4,7 +4,7 @@ from fastapi import APIRouter, Request, Response
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.permissions import AnnotatorCalls
+from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath
@@ -25,7 +25,7 @@ NO_LIVE_LEASE = (errors.NotFound, errors.NotYours, errors.WrongToken, errors.Lea
     responses=refusals(errors.NotFound) | {204: {"description": "There was no query within `wait` seconds."}},
     response_model=wire.Assignment,
 )
-async def lease(body: wire.Lease, request: Request, context: Ctx, caller: AnnotatorCalls) -> wire.Assignment | Response:
+async def lease(body: wire.Lease, request: Request, context: Ctx, caller: Allowed) -> wire.Assignment | Response:
     """Lease the next query; if there is none, wait for one."""
     wanted = LeaseRequest.of(body, caller.user, context.settings)
     found = await waiting.lease(context, request, wanted, body.wait)
@@ -33,26 +33,26 @@ async def lease(body: wire.Lease, request: Request, context: Ctx, caller: Annota
 
 
 @router.post("/leave", status_code=204, operation_id="leave")
-async def leave(body: wire.Leave, context: Ctx, caller: AnnotatorCalls) -> None:
+async def leave(body: wire.Leave, context: Ctx, caller: Allowed) -> None:
     """Close a browser tab: release its assignments, except those in `keep`, and refuse its lease requests."""
     await context.db.write(lambda tx: leases.close_tab(tx, caller.user, body))
 
 
 @router.get("", operation_id="myAssignments")
-async def my_assignments(context: Ctx, caller: AnnotatorCalls) -> wire.AssignmentList:
+async def my_assignments(context: Ctx, caller: Allowed) -> wire.AssignmentList:
     """List the caller's live assignments, so that a reloaded tab can continue with them."""
     return await context.db.read(lambda tx: assignments.live_of(tx, caller.user))
 
 
 @router.post("/{assignment}/renew", operation_id="renew", responses=refusals(*NO_LIVE_LEASE))
-async def renew(assignment: RowPath, body: wire.Renew, context: Ctx, caller: AnnotatorCalls) -> wire.Renewal:
+async def renew(assignment: RowPath, body: wire.Renew, context: Ctx, caller: Allowed) -> wire.Renewal:
     """Renew the lease: it lasts its full length from now, but not longer than the server's cap."""
     settings = context.settings
     return await context.db.write(lambda tx: leases.renew(tx, assignment, caller.user, body, settings))
 
 
 @router.post("/{assignment}/release", status_code=204, operation_id="release", responses=refusals(*NO_LIVE_LEASE))
-async def release(assignment: RowPath, body: wire.Release, context: Ctx, caller: AnnotatorCalls) -> None:
+async def release(assignment: RowPath, body: wire.Release, context: Ctx, caller: Allowed) -> None:
     """Return the query to the queue without an answer. With `skip`, the caller does not get it again."""
     settings = context.settings
     await context.db.write(lambda tx: leases.release(tx, assignment, caller.user, body, settings))

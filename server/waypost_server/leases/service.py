@@ -7,7 +7,7 @@ from sqlalchemy import bindparam, insert, select, update
 from sqlalchemy.sql.elements import ColumnElement
 
 from waypost import wire
-from waypost_server.auth.roles import check_may_answer
+from waypost_server.auth.access import ACCESS, check_still
 from waypost_server.db import wakeups
 from waypost_server.db.tables import IS_LIVE, assignments, queries, skips
 from waypost_server.db.transaction import Tx
@@ -36,7 +36,7 @@ def lease(tx: Tx, request: LeaseRequest) -> wire.Assignment | None:
         Unauthenticated, Forbidden: the user may no longer answer.
     """
     expire(tx)
-    check_may_answer(tx, request.user)
+    check_still(tx, ACCESS["lease"], request.user)
     if request.run is not None:
         runs.find(tx, request.run)
     if request.tab is not None and closed_tabs.is_closed(tx, request.user, request.tab):

@@ -10,6 +10,7 @@ from pydantic_core import from_json
 
 from waypost import wire
 from waypost_server import errors
+from waypost_server.auth.access import check_owner
 from waypost_server.db.transaction import Tx
 from waypost_server.leases.assignments import check_live, find
 from waypost_server.queries import checks
@@ -65,7 +66,7 @@ def check_taken(tx: Tx, query: int, user: int, hello: wire.PlayTake) -> Demonstr
     return _demonstration(tx, queries.view(tx, query))
 
 
-def check_offer(tx: Tx, query: int, user: int, is_admin: bool) -> None:
+def check_offer(tx: Tx, query: int, user: int, role: wire.Role) -> None:
     """Refuse a learner who may not offer the environment of a query.
 
     Raises:
@@ -74,8 +75,7 @@ def check_offer(tx: Tx, query: int, user: int, is_admin: bool) -> None:
         NotPlayable: the query is not an open demonstration.
     """
     found = queries.view(tx, query)
-    if runs.find(tx, found.run).user_id != user and not is_admin:
-        raise errors.Forbidden(f"Query {query} belongs to another learner's run.")
+    check_owner(tx, found.run, runs.find(tx, found.run).user_id, user, role)
     _demonstration(tx, found)
     if found.state in queries.CLOSED:
         raise errors.NotPlayable(f"Query {query} is {found.state}.")

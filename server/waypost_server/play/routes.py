@@ -11,9 +11,9 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
 from waypost import wire
 from waypost_server import errors
+from waypost_server.auth.access import ACCESS, check_role
 from waypost_server.auth.lookup import Cached
-from waypost_server.auth.permissions import Caller, authenticate_socket, check_role
-from waypost_server.auth.roles import ANNOTATORS, LEARNERS
+from waypost_server.auth.permissions import Caller, authenticate_socket
 from waypost_server.http.context import Context, Ctx
 from waypost_server.http.parameters import RowPath
 from waypost_server.play import protocol
@@ -53,7 +53,7 @@ async def _annotate(
     socket: WebSocket, query: int, context: Context, relay: Relay, caller: Caller, hello: wire.PlayTake
 ) -> None:
     """Forward an annotator's moves for as long as the lease is live."""
-    check_role(caller, ANNOTATORS)
+    check_role(ACCESS["playTake"], caller.name, caller.role)
     demonstration = await context.db.read(lambda tx: protocol.check_taken(tx, query, caller.user, hello))
     checked_at, limit = time.monotonic(), protocol.RateLimit()
     async with relay.seat(query, "annotator", socket):
@@ -69,9 +69,8 @@ async def _annotate(
 
 async def _offer(socket: WebSocket, query: int, context: Context, relay: Relay, caller: Caller) -> None:
     """Forward the states that a learner's environment returns."""
-    check_role(caller, LEARNERS)
-    is_admin = caller.role == "admin"
-    await context.db.read(lambda tx: protocol.check_offer(tx, query, caller.user, is_admin))
+    check_role(ACCESS["playOffer"], caller.name, caller.role)
+    await context.db.read(lambda tx: protocol.check_offer(tx, query, caller.user, caller.role))
     limit = protocol.RateLimit()
     async with relay.seat(query, "learner", socket):
         while True:

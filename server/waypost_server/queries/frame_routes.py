@@ -6,7 +6,7 @@ from fastapi import APIRouter, Path, Response
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.permissions import AnyoneCalls, LearnerCalls
+from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.problems import refusals
@@ -22,14 +22,14 @@ HEADERS = {
 
 
 @router.put("", status_code=204, operation_id="putFrames")
-async def put_frames(body: wire.FrameUpload, context: Ctx, _: LearnerCalls) -> None:
+async def put_frames(body: wire.FrameUpload, context: Ctx, _: Allowed) -> None:
     """Upload pictures of states: all of them or none. Pictures that were uploaded before do not change."""
     files = frames.decode(body.frames, context.settings.max_frame_bytes)
     await context.db.write(lambda tx: frames.store(tx, files))
 
 
 @router.post("/missing", operation_id="missingFrames")
-async def missing_frames(body: wire.FrameHashes, context: Ctx, _: LearnerCalls) -> wire.FrameHashes:
+async def missing_frames(body: wire.FrameHashes, context: Ctx, _: Allowed) -> wire.FrameHashes:
     """Return the hashes of frames that are not stored yet."""
     return await context.db.read(lambda tx: wire.FrameHashes(hashes=frames.missing(tx, body.hashes)))
 
@@ -40,7 +40,7 @@ async def missing_frames(body: wire.FrameHashes, context: Ctx, _: LearnerCalls) 
     response_class=Response,
     responses=refusals(errors.NotFound) | {200: {"description": "The picture.", "content": {"image/png": {}}}},
 )
-async def get_frame(frame: Hash, context: Ctx, _: AnyoneCalls) -> Response:
+async def get_frame(frame: Hash, context: Ctx, _: Allowed) -> Response:
     """Return a picture. The picture of a hash never changes."""
     png = await context.db.read(lambda tx: frames.find(tx, frame))
     return Response(png, media_type="image/png", headers=HEADERS)

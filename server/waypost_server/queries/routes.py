@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query, Request
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.permissions import LearnerCalls, WatcherCalls
+from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath, RowQuery, Seconds
@@ -25,18 +25,18 @@ router = APIRouter(tags=["queries"], route_class=JsonRoute)
         errors.NotFound, errors.DifferentContent, errors.RunFinished, errors.BudgetExhausted, errors.TooManyQueries
     ),
 )
-async def ask(run: str, body: wire.AskList, context: Ctx, _: LearnerCalls) -> wire.Asked:
+async def ask(run: str, body: wire.AskList, context: Ctx, caller: Allowed) -> wire.Asked:
     """Ask the expert: all of the queries or none. A query that was asked before is returned with its answer."""
     limit = context.settings.max_open_queries
     contents = [queries.Content.of(one) for one in body.queries]
-    return await context.db.write(lambda tx: queries.ask(tx, run, body, contents, limit))
+    return await context.db.write(lambda tx: queries.ask(tx, run, body, contents, limit, caller.user))
 
 
 @router.get("/runs/{run}/queries", operation_id="listQueries", responses=refusals(errors.NotFound))
 async def list_queries(
     run: str,
     context: Ctx,
-    _: WatcherCalls,
+    _: Allowed,
     state: wire.QueryState | None = None,
     kind: wire.Kind | None = None,
     episode: RowQuery | None = None,
@@ -49,7 +49,7 @@ async def list_queries(
 
 
 @router.get("/queries/{query}", operation_id="getQuery", responses=refusals(errors.NotFound))
-async def get_query(query: RowPath, request: Request, context: Ctx, _: WatcherCalls, wait: Seconds = 0) -> wire.Query:
+async def get_query(query: RowPath, request: Request, context: Ctx, _: Allowed, wait: Seconds = 0) -> wire.Query:
     """Return a query; with `wait`, return as soon as it is answered or cancelled."""
     topic = queries.topic(query)
     return await poll(
@@ -67,7 +67,7 @@ async def list_answers(
     run: str,
     request: Request,
     context: Ctx,
-    _: WatcherCalls,
+    _: Allowed,
     after: RowQuery = 0,
     wait: Seconds = 0,
     limit: Annotated[int, Query(ge=1, le=500)] = 100,
@@ -84,6 +84,6 @@ async def list_answers(
 
 
 @router.post("/queries/{query}/use", operation_id="useAnswer", responses=refusals(errors.NotFound, errors.NotAnswered))
-async def use_answer(query: RowPath, context: Ctx, _: LearnerCalls) -> wire.Query:
+async def use_answer(query: RowPath, context: Ctx, caller: Allowed) -> wire.Query:
     """Mark the answer as used. From then on it can no longer be retracted."""
-    return await context.db.write(lambda tx: queries.use(tx, query))
+    return await context.db.write(lambda tx: queries.use(tx, query, caller.user))

@@ -147,15 +147,16 @@ def answered_after(tx: Tx, run: str, cursor: int, limit: int) -> wire.AnswerPage
     return wire.AnswerPage(queries=found, cursor=cursor if last is None else last)
 
 
-def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_open: int) -> wire.Asked:
+def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_open: int, user: int) -> wire.Asked:
     """Ask all of the queries or none. Queries that were asked before are returned in their present state.
 
     Raises:
+        Forbidden: the user may not change the run.
         DifferentContent: a key was used before with other content.
         RunFinished, TooManyQueries, BudgetExhausted: the run cannot ask new queries.
         Unprocessable: a query is not valid in this run.
     """
-    run_row = runs.lock(tx, run)
+    run_row = runs.lock_own(tx, run, user)
     known = _known(tx, run, contents)
     new = _new(contents, known)
     if new:
@@ -257,14 +258,15 @@ def _answered_last(tx: Tx, run: str, episodes: Collection[int]) -> dict[int, int
     return {row.episode: row.user_id for row in rows}
 
 
-def use(tx: Tx, query: int) -> wire.Query:
+def use(tx: Tx, query: int, user: int) -> wire.Query:
     """Mark the answer as used, so that it can no longer be retracted.
 
     Raises:
+        Forbidden: the user may not change the run.
         NotAnswered: there is no answer, for example because it was retracted in the meantime.
     """
     found = view(tx, query)
-    runs.lock(tx, found.run)
+    runs.lock_own(tx, found.run, user)
     changed = tx.conn.execute(
         update(queries)
         .where(queries.c.id == query, queries.c.run_id == found.run, queries.c.state == "answered", ~queries.c.used)

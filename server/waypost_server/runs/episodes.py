@@ -13,14 +13,15 @@ from waypost_server.runs import events
 from waypost_server.runs import service as runs
 
 
-def report(tx: Tx, run: str, results: Sequence[wire.EpisodeResult]) -> wire.Run:
+def report(tx: Tx, run: str, results: Sequence[wire.EpisodeResult], user: int) -> wire.Run:
     """Store results. Reporting an episode again changes nothing, even if its duration differs.
 
     Raises:
+        Forbidden: the user may not change the run.
         DifferentContent: an episode was reported before with another result.
         RunFinished: a finished run reports a new episode.
     """
-    row = runs.lock(tx, run)
+    row = runs.lock_own(tx, run, user)
     numbers = [result.episode for result in results]
     stored = select(episodes.c.episode, episodes.c.result).where(
         episodes.c.run_id == run, episodes.c.episode.in_(numbers)

@@ -21,6 +21,7 @@ class Filter:
     text: str = ""
     state: wire.RunState | None = None
     ids: tuple[str, ...] = ()
+    owner: int | None = None
     sort: wire.RunSort = "newest"
     descending: bool = True
     offset: int = 0
@@ -61,6 +62,8 @@ def _conditions(chosen: Filter) -> list[ColumnElement[bool]]:
         conditions.append(runs.c.state == chosen.state)
     if chosen.ids:
         conditions.append(runs.c.id.in_(chosen.ids))
+    if chosen.owner is not None:
+        conditions.append(runs.c.user_id == chosen.owner)
     return conditions
 
 

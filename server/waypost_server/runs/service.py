@@ -10,6 +10,7 @@ from sqlalchemy import Float, Row, Select, bindparam, cast, func, insert, select
 from waypost import wire
 from waypost.prices import to_micro, to_units
 from waypost_server import errors
+from waypost_server.auth import access
 from waypost_server.db import canonical, wakeups
 from waypost_server.db.tables import IS_LIVE, assignments, episodes, queries, runs
 from waypost_server.db.transaction import Tx
@@ -103,6 +104,19 @@ def lock(tx: Tx, run: str) -> Row[Any]:
     return _one(tx, _LOCK, run)
 
 
+def lock_own(tx: Tx, run: str, user: int) -> Row[Any]:
+    """Return a run's row, locked, to a user who may change the run: its owner or an administrator.
+
+    Raises:
+        NotFound: there is no such run.
+        Unauthenticated, Forbidden: the user may not change the run, or no longer.
+    """
+    role = access.check_still(tx, access.OWN_RUN, user)
+    row = lock(tx, run)
+    access.check_owner(tx, run, row.user_id, user, role)
+    return row
+
+
 def account(row: Row[Any]) -> Account:
     """Return the account of a locked run."""
     return Account(row.id, row.budget, row.spent, row.reserved)
@@ -151,15 +165,16 @@ def create(tx: Tx, wanted: wire.RunCreate, user: int) -> wire.Run:
     return view(tx, run)
 
 
-def patch(tx: Tx, run: str, wanted: wire.RunPatch) -> wire.Run:
+def patch(tx: Tx, run: str, wanted: wire.RunPatch, user: int) -> wire.Run:
     """Change a run. Absent fields change nothing; an explicit null removes the budget or the result.
 
     Raises:
         NotFound: there is no such run.
+        Forbidden: the user may not change the run.
         RunFinished: a finished run cannot be resumed.
         BudgetTooLow: the budget is below the units spent and reserved.
     """
-    row = lock(tx, run)
+    row = lock_own(tx, run, user)
     sent = wanted.model_fields_set
     changes: dict[str, Any] = {}
     if wanted.name is not None:

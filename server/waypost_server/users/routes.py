@@ -8,7 +8,7 @@ from waypost import wire
 from waypost_server import errors
 from waypost_server.auth import sessions, tokens
 from waypost_server.auth.lookup import Cached
-from waypost_server.auth.permissions import AdminCalls, AnyoneCalls
+from waypost_server.auth.permissions import Allowed
 from waypost_server.auth.roles import ADMINS
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
@@ -22,25 +22,25 @@ RowId = Annotated[int, Path(ge=1, le=2**63 - 1)]
 
 
 @router.get("/users", operation_id="listUsers")
-async def list_users(context: Ctx, _: AdminCalls) -> wire.UserList:
+async def list_users(context: Ctx, _: Allowed) -> wire.UserList:
     """List all users."""
     return await context.db.read(users.list_users)
 
 
 @router.post("/users", status_code=201, operation_id="createUser", responses=refusals(errors.NameTaken))
-async def create_user(body: wire.UserCreate, context: Ctx, _: AdminCalls) -> wire.User:
+async def create_user(body: wire.UserCreate, context: Ctx, _: Allowed) -> wire.User:
     """Create a user: a person or a program that may call the server."""
     return await context.db.write(lambda tx: users.create_user(tx, body.name, body.role))
 
 
 @router.get("/users/{user}", operation_id="getUser", responses=refusals(errors.NotFound))
-async def get_user(user: RowId, context: Ctx, _: AdminCalls) -> wire.User:
+async def get_user(user: RowId, context: Ctx, _: Allowed) -> wire.User:
     """Return a user."""
     return await context.db.read(lambda tx: users.view(tx, user))
 
 
 @router.patch("/users/{user}", operation_id="patchUser", responses=refusals(errors.NotFound, errors.LastAdministrator))
-async def patch_user(user: RowId, body: wire.UserPatch, context: Ctx, cache: Cached, _: AdminCalls) -> wire.User:
+async def patch_user(user: RowId, body: wire.UserPatch, context: Ctx, cache: Cached, _: Allowed) -> wire.User:
     """Change a user's role; deactivate or reactivate a user.
 
     Deactivation revokes sessions, tokens and login links, and releases leases, all immediately. Answers stay.
@@ -57,7 +57,7 @@ async def patch_user(user: RowId, body: wire.UserPatch, context: Ctx, cache: Cac
     responses=refusals(errors.NotFound, errors.NotActive),
 )
 async def create_login_link(
-    user: RowId, context: Ctx, _: AdminCalls, body: wire.LoginLinkCreate | None = None
+    user: RowId, context: Ctx, _: Allowed, body: wire.LoginLinkCreate | None = None
 ) -> wire.LoginLink:
     """Create a one-time login code; the link is `<this server>/login#<code>`."""
     seconds = (body and body.seconds) or context.settings.link_seconds
@@ -65,19 +65,19 @@ async def create_login_link(
 
 
 @router.get("/users/{user}/tokens", operation_id="listTokens", responses=refusals(errors.NotFound))
-async def list_tokens(user: RowId, context: Ctx, _: AdminCalls) -> wire.TokenList:
+async def list_tokens(user: RowId, context: Ctx, _: Allowed) -> wire.TokenList:
     """List a user's API tokens, without their secrets."""
     return await context.db.read(lambda tx: tokens.list_tokens(tx, user))
 
 
 @router.get("/users/{user}/numbers", operation_id="getNumbers", responses=refusals(errors.NotFound))
-async def get_numbers(user: RowId, context: Ctx, _: AdminCalls) -> wire.Numbers:
+async def get_numbers(user: RowId, context: Ctx, _: Allowed) -> wire.Numbers:
     """Return a user's performance: number of answers, speed, accuracy on gold queries."""
     return await context.db.read(lambda tx: performance.of_user(tx, users.view(tx, user).id))
 
 
 @router.get("/numbers", operation_id="listNumbers")
-async def list_numbers(context: Ctx, _: AdminCalls) -> wire.NumbersList:
+async def list_numbers(context: Ctx, _: Allowed) -> wire.NumbersList:
     """Return the performance of every annotator who ever answered."""
     return await context.db.read(performance.of_everyone)
 
@@ -88,7 +88,7 @@ async def list_numbers(context: Ctx, _: AdminCalls) -> wire.NumbersList:
     operation_id="createToken",
     responses=refusals(errors.Forbidden, errors.NotFound, errors.NotActive),
 )
-async def create_token(body: wire.TokenCreate, context: Ctx, caller: AnyoneCalls) -> wire.NewToken:
+async def create_token(body: wire.TokenCreate, context: Ctx, caller: Allowed) -> wire.NewToken:
     """Create an API token for the caller; an administrator may create one for any user. It is shown only once."""
     user = caller.user if body.user is None else body.user
     if user != caller.user and caller.role not in ADMINS:
@@ -97,7 +97,7 @@ async def create_token(body: wire.TokenCreate, context: Ctx, caller: AnyoneCalls
 
 
 @router.delete("/tokens/{token}", status_code=204, operation_id="revokeToken", responses=refusals(errors.NotFound))
-async def revoke_token(token: RowId, context: Ctx, cache: Cached, caller: AnyoneCalls) -> None:
+async def revoke_token(token: RowId, context: Ctx, cache: Cached, caller: Allowed) -> None:
     """Revoke one of the caller's tokens; an administrator may revoke any. It takes effect immediately."""
     owner = None if caller.role in ADMINS else caller.user
     await context.db.write(lambda tx: tokens.revoke_token(tx, token, owner))

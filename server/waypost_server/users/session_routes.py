@@ -7,7 +7,7 @@ from waypost_server import errors
 from waypost_server.auth import credentials, sessions, tokens
 from waypost_server.auth.attempts import Counted
 from waypost_server.auth.lookup import Cached
-from waypost_server.auth.permissions import COOKIE, AnyoneCalls, refuse_cross_site
+from waypost_server.auth.permissions import COOKIE, Allowed, refuse_cross_site
 from waypost_server.http.context import Context, Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.problems import refusals
@@ -57,7 +57,7 @@ async def login(body: wire.Login, request: Request, response: Response, context:
 
 
 @router.delete("/session", status_code=204, operation_id="logout")
-async def logout(response: Response, context: Ctx, cache: Cached, caller: AnyoneCalls) -> None:
+async def logout(response: Response, context: Ctx, cache: Cached, caller: Allowed) -> None:
     """End the browser's session. API tokens stay valid."""
     if caller.by_cookie:
         await context.db.write(lambda tx: credentials.revoke(tx, caller.credential))
@@ -66,7 +66,7 @@ async def logout(response: Response, context: Ctx, cache: Cached, caller: Anyone
 
 
 @router.get("/me", operation_id="me")
-async def me(request: Request, response: Response, context: Ctx, caller: AnyoneCalls) -> wire.Me:
+async def me(request: Request, response: Response, context: Ctx, caller: Allowed) -> wire.Me:
     """Return the caller and the totals of their answers. This call also renews a browser's session."""
     seconds = context.settings.session_seconds
     if caller.by_cookie and await context.db.write(lambda tx: sessions.renew_session(tx, caller.credential, seconds)):
@@ -75,25 +75,25 @@ async def me(request: Request, response: Response, context: Ctx, caller: AnyoneC
 
 
 @router.get("/me/numbers", operation_id="myNumbers")
-async def my_numbers(context: Ctx, caller: AnyoneCalls) -> wire.Numbers:
+async def my_numbers(context: Ctx, caller: Allowed) -> wire.Numbers:
     """Return the caller's performance: number of answers, speed, accuracy on gold queries, ten at a time."""
     return await context.db.read(lambda tx: performance.of_self(tx, caller.user))
 
 
 @router.get("/me/tokens", operation_id="myTokens")
-async def my_tokens(context: Ctx, caller: AnyoneCalls) -> wire.TokenList:
+async def my_tokens(context: Ctx, caller: Allowed) -> wire.TokenList:
     """List the caller's API tokens, without their secrets."""
     return await context.db.read(lambda tx: tokens.list_tokens(tx, caller.user))
 
 
 @router.get("/me/sessions", operation_id="mySessions")
-async def my_sessions(context: Ctx, caller: AnyoneCalls) -> wire.SessionList:
+async def my_sessions(context: Ctx, caller: Allowed) -> wire.SessionList:
     """List the caller's browser sessions."""
     return await context.db.read(lambda tx: sessions.list_sessions(tx, caller.user, caller.credential))
 
 
 @router.delete("/me/sessions", status_code=204, operation_id="logoutEverywhere")
-async def logout_everywhere(response: Response, context: Ctx, cache: Cached, caller: AnyoneCalls) -> None:
+async def logout_everywhere(response: Response, context: Ctx, cache: Cached, caller: Allowed) -> None:
     """End all of the caller's browser sessions, including this one. API tokens stay valid."""
     await context.db.write(lambda tx: credentials.revoke_all(tx, caller.user, "session"))
     cache.clear()

@@ -7,7 +7,7 @@ from fastapi.responses import StreamingResponse
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.permissions import AnyoneCalls
+from waypost_server.auth.permissions import Allowed
 from waypost_server.auth.roles import WATCHERS
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
@@ -37,7 +37,7 @@ async def stream_events(
     run: str,
     request: Request,
     context: Ctx,
-    caller: AnyoneCalls,
+    caller: Allowed,
     after: Annotated[
         int | None, Query(ge=0, le=2**63 - 1, description="Only events after this id; without it, only new events.")
     ] = None,
@@ -64,6 +64,6 @@ async def stream_events(
         }
     },
 )
-async def stream_changes(request: Request, context: Ctx, _: AnyoneCalls) -> StreamingResponse:
+async def stream_changes(request: Request, context: Ctx, _: Allowed) -> StreamingResponse:
     """Stream a message whenever any run has changed, at most one a second."""
     return StreamingResponse(sse.stream_changes(context, request), media_type="text/event-stream")

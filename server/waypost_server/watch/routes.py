@@ -7,7 +7,7 @@ from fastapi.responses import StreamingResponse
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.permissions import AnyoneCalls, WatcherCalls
+from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath, RowQuery
@@ -29,7 +29,7 @@ Word = Annotated[str | None, Query(max_length=100, pattern=r"^[^\x00]*$")]
 async def list_query_rows(
     run: str,
     context: Ctx,
-    _: WatcherCalls,
+    _: Allowed,
     state: wire.QueryState | None = None,
     kind: wire.Kind | None = None,
     episode: RowQuery | None = None,
@@ -48,7 +48,7 @@ async def list_query_rows(
 async def list_ledger(
     run: str,
     context: Ctx,
-    _: WatcherCalls,
+    _: Allowed,
     kind: wire.Kind | None = None,
     entry: wire.LedgerEntryKind | None = None,
     before: Before = None,
@@ -65,7 +65,7 @@ async def list_ledger(
 async def list_records(
     run: str,
     context: Ctx,
-    _: WatcherCalls,
+    _: Allowed,
     part: wire.RecordPart,
     after: Annotated[int | None, Query(ge=0, le=2**62, description="The cursor of the page before.")] = None,
 ) -> wire.RecordPage:
@@ -74,13 +74,13 @@ async def list_records(
 
 
 @router.get("/queries/{query}/history", operation_id="getHistory", responses=refusals(errors.NotFound))
-async def get_history(query: RowPath, context: Ctx, _: WatcherCalls) -> wire.QueryHistory:
+async def get_history(query: RowPath, context: Ctx, _: Allowed) -> wire.QueryHistory:
     """Return all assignments of a query, their answers, and what they cost."""
     return await context.db.read(lambda tx: query_history.history(tx, query))
 
 
 @router.get("/annotators", operation_id="listAtWork", responses=refusals(errors.NotFound))
-async def list_at_work(context: Ctx, _: AnyoneCalls, run: str | None = None) -> wire.AtWorkList:
+async def list_at_work(context: Ctx, _: Allowed, run: str | None = None) -> wire.AtWorkList:
     """List the annotators at work, in one run or in all: those who asked for a query recently or hold one."""
     settings = context.settings
     if run is not None:
@@ -98,7 +98,7 @@ async def list_at_work(context: Ctx, _: AnyoneCalls, run: str | None = None) -> 
 async def export_run(
     run: str,
     context: Ctx,
-    _: WatcherCalls,
+    _: Allowed,
     table: wire.ExportTable = "curves",
     form: Annotated[wire.ExportFormat, Query(alias="format")] = "csv",
 ) -> StreamingResponse:

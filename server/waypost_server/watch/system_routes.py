@@ -5,7 +5,7 @@ from fastapi.responses import PlainTextResponse
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.permissions import WatcherCalls
+from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import VERSION, Ctx
 from waypost_server.http.problems import refusals
 from waypost_server.watch import metrics
@@ -28,7 +28,7 @@ async def readyz(readiness: Ready) -> wire.Health:
 
 
 @router.get("/metrics", operation_id="metrics", response_class=PlainTextResponse)
-async def get_metrics(context: Ctx, _: WatcherCalls) -> PlainTextResponse:
+async def get_metrics(context: Ctx, _: Allowed) -> PlainTextResponse:
     """Return counts in Prometheus' text format."""
     text = await context.db.read(metrics.text)
     return PlainTextResponse(text, media_type="text/plain; version=0.0.4")

@@ -227,5 +227,7 @@ def test_a_learner_that_is_turned_away_says_why_once(
     with caplog.at_level(logging.WARNING, "waypost"):
         offer(lambda: other.play(query.id), translator, other.upload)
         wait_until(lambda: not stages())
-    assert [record.message for record in caplog.records if "another learner's run" in record.message] != []
+    assert [
+        record.message for record in caplog.records if f"Run {query.run} belongs to learner" in record.message
+    ] != []
     assert len([record for record in caplog.records if record.name == "waypost"]) == 1

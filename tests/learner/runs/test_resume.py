@@ -3,10 +3,11 @@
 import json
 import os
 import signal
+import sqlite3
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -166,6 +167,17 @@ def test_only_an_unfinished_run_of_the_same_values_is_resumed(tmp_path: Path) ->
                 train(config, connection, options)
         older = connection.learner.runs()[1].id
         assert train(corridor(episodes=3), connection, replace(options, resume=True))["run"] == older
+
+
+def test_the_run_of_another_user_is_not_resumed(tmp_path: Path) -> None:
+    with store(tmp_path) as (connection, options):
+        with pytest.raises(Interrupted), interrupted_at(15, before_it_arrives=True):
+            train(corridor(episodes=3), connection, options)
+        (others,) = connection.learner.runs()
+        give = "UPDATE runs SET user_id = (SELECT id FROM users WHERE name = 'oracle')"
+        with closing(sqlite3.connect(tmp_path / "waypost.db")) as file, file:
+            file.execute(give)
+        assert train(corridor(episodes=3), connection, replace(options, resume=True))["run"] != others.id
 
 
 def test_a_finished_run_leaves_a_checkpoint_of_its_weights(tmp_path: Path) -> None:

@@ -125,14 +125,17 @@ def test_what_befell_a_query_is_in_its_record(service: Service) -> None:
     assert entries == [("charge", 0.1), ("charge", 3), ("refund", -3), ("charge", 3), ("charge", 1)]
 
 
-def test_an_imported_run_is_marked_and_can_spend_nothing(lite: Service, tmp_path: Path) -> None:
+def test_an_imported_run_is_marked_belongs_to_an_administrator_and_can_spend_nothing(
+    lite: Service, tmp_path: Path
+) -> None:
     run = lite.learner.create_run(budget=5)
     lite.learner.patch(run, state="finished")
     url = f"sqlite:///{tmp_path / 'copy.db'}"
     taken_in(url, told(lite, run))
     with in_process(url) as copy:
-        assert copy.learner.patch(run, 409, state="running")["type"] == "/problems/run-finished"
-        assert copy.learner.ask(run, query(), expect=409)["type"] == "/problems/run-finished"
+        assert copy.admin.patch(run, 409, state="running")["type"] == "/problems/run-finished"
+        assert copy.admin.ask(run, query(), expect=409)["type"] == "/problems/run-finished"
+        copy.learner.patch(run, 403, name="mine")
         with closing(Database(url)) as db:
             (event,) = db.read_now(lambda tx: tx.conn.exec_driver_sql("SELECT data FROM events").scalars().all())
         assert event == '{"state": "finished", "imported": true}'

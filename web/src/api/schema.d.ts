@@ -11,12 +11,16 @@ export interface paths {
         /**
          * List Runs
          * @description List runs, newest first unless sorted otherwise.
+         *
+         *     Every role may call it.
          */
         get: operations["listRuns"];
         put?: never;
         /**
          * Create Run
          * @description Create a run: one learner's training with one algorithm, domain, seed and cost model.
+         *
+         *     Needs the role admin or learner.
          */
         post: operations["createRun"];
         delete?: never;
@@ -35,6 +39,8 @@ export interface paths {
         /**
          * Get Run
          * @description Return a run with its account.
+         *
+         *     Every role may call it.
          */
         get: operations["getRun"];
         put?: never;
@@ -45,6 +51,8 @@ export interface paths {
         /**
          * Patch Run
          * @description Rename, pause, resume or finish a run; set its budget or priority. Finishing a run cancels its open queries.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         patch: operations["patchRun"];
         trace?: never;
@@ -61,6 +69,8 @@ export interface paths {
         /**
          * Report Episodes
          * @description Report the results of episodes. Reporting the same result again changes nothing.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["reportEpisodes"];
         delete?: never;
@@ -79,6 +89,8 @@ export interface paths {
         /**
          * Get Curves
          * @description Return success and cumulative cost by episode.
+         *
+         *     Every role may call it.
          */
         get: operations["getCurves"];
         put?: never;
@@ -99,6 +111,8 @@ export interface paths {
         /**
          * Get Costs
          * @description Return the ledger's sums, by kind of query.
+         *
+         *     Every role may call it.
          */
         get: operations["getCosts"];
         put?: never;
@@ -119,12 +133,16 @@ export interface paths {
         /**
          * List Queries
          * @description List a run's queries, newest first.
+         *
+         *     Needs the role admin or learner or viewer.
          */
         get: operations["listQueries"];
         put?: never;
         /**
          * Ask
          * @description Ask the expert: all of the queries or none. A query that was asked before is returned with its answer.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["ask"];
         delete?: never;
@@ -143,6 +161,8 @@ export interface paths {
         /**
          * Get Query
          * @description Return a query; with `wait`, return as soon as it is answered or cancelled.
+         *
+         *     Needs the role admin or learner or viewer.
          */
         get: operations["getQuery"];
         put?: never;
@@ -163,6 +183,8 @@ export interface paths {
         /**
          * List Answers
          * @description Return the queries answered after a cursor, in the order of their answers; with `wait`, wait for the first.
+         *
+         *     Needs the role admin or learner or viewer.
          */
         get: operations["listAnswers"];
         put?: never;
@@ -185,6 +207,8 @@ export interface paths {
         /**
          * Use Answer
          * @description Mark the answer as used. From then on it can no longer be retracted.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["useAnswer"];
         delete?: never;
@@ -203,12 +227,16 @@ export interface paths {
         /**
          * My Assignments
          * @description List the caller's live assignments, so that a reloaded tab can continue with them.
+         *
+         *     Needs the role admin or annotator.
          */
         get: operations["myAssignments"];
         put?: never;
         /**
          * Lease
          * @description Lease the next query; if there is none, wait for one.
+         *
+         *     Needs the role admin or annotator.
          */
         post: operations["lease"];
         delete?: never;
@@ -229,6 +257,8 @@ export interface paths {
         /**
          * Leave
          * @description Close a browser tab: release its assignments, except those in `keep`, and refuse its lease requests.
+         *
+         *     Needs the role admin or annotator.
          */
         post: operations["leave"];
         delete?: never;
@@ -249,6 +279,8 @@ export interface paths {
         /**
          * Renew
          * @description Renew the lease: it lasts its full length from now, but not longer than the server's cap.
+         *
+         *     Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["renew"];
         delete?: never;
@@ -269,6 +301,8 @@ export interface paths {
         /**
          * Release
          * @description Return the query to the queue without an answer. With `skip`, the caller does not get it again.
+         *
+         *     Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["release"];
         delete?: never;
@@ -291,6 +325,8 @@ export interface paths {
          * @description Answer a query. One transaction stores and charges the answer; the reply comes when the answer is on disk.
          *
          *     If the query wanted as `next` cannot be leased, the answer stays accepted, and `next_problem` says why.
+         *
+         *     Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["answer"];
         delete?: never;
@@ -311,6 +347,8 @@ export interface paths {
         /**
          * Retract
          * @description Retract an answer that the learner has not used: refund it, and lease its query to the caller again.
+         *
+         *     Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["retract"];
         delete?: never;
@@ -329,6 +367,8 @@ export interface paths {
         /**
          * List Query Rows
          * @description List one page of a run's queries without their trajectories, newest first.
+         *
+         *     Needs the role admin or learner or viewer.
          */
         get: operations["listQueryRows"];
         put?: never;
@@ -349,6 +389,8 @@ export interface paths {
         /**
          * List Ledger
          * @description List one page of a run's charges and refunds, newest first, with the sums over all pages.
+         *
+         *     Needs the role admin or learner or viewer.
          */
         get: operations["listLedger"];
         put?: never;
@@ -369,6 +411,8 @@ export interface paths {
         /**
          * List Records
          * @description List one page of a run's records: its queries with their histories, its ledger, or its episodes.
+         *
+         *     Needs the role admin or learner or viewer.
          */
         get: operations["listRecords"];
         put?: never;
@@ -389,6 +433,8 @@ export interface paths {
         /**
          * Get History
          * @description Return all assignments of a query, their answers, and what they cost.
+         *
+         *     Needs the role admin or learner or viewer.
          */
         get: operations["getHistory"];
         put?: never;
@@ -409,6 +455,8 @@ export interface paths {
         /**
          * List At Work
          * @description List the annotators at work, in one run or in all: those who asked for a query recently or hold one.
+         *
+         *     Every role may call it.
          */
         get: operations["listAtWork"];
         put?: never;
@@ -429,6 +477,8 @@ export interface paths {
         /**
          * Export Run
          * @description Download a run's curves, ledger or queries as CSV or JSON Lines.
+         *
+         *     Needs the role admin or learner or viewer.
          */
         get: operations["exportRun"];
         put?: never;
@@ -449,6 +499,8 @@ export interface paths {
         /**
          * Stream Events
          * @description Stream the events of a run, starting after a cursor. For annotators, `data` is empty.
+         *
+         *     Every role may call it.
          */
         get: operations["streamEvents"];
         put?: never;
@@ -469,6 +521,8 @@ export interface paths {
         /**
          * Stream Changes
          * @description Stream a message whenever any run has changed, at most one a second.
+         *
+         *     Every role may call it.
          */
         get: operations["streamChanges"];
         put?: never;
@@ -490,6 +544,8 @@ export interface paths {
         /**
          * Put Frames
          * @description Upload pictures of states: all of them or none. Pictures that were uploaded before do not change.
+         *
+         *     Needs the role admin or learner.
          */
         put: operations["putFrames"];
         post?: never;
@@ -511,6 +567,8 @@ export interface paths {
         /**
          * Missing Frames
          * @description Return the hashes of frames that are not stored yet.
+         *
+         *     Needs the role admin or learner.
          */
         post: operations["missingFrames"];
         delete?: never;
@@ -529,6 +587,8 @@ export interface paths {
         /**
          * Get Frame
          * @description Return a picture. The picture of a hash never changes.
+         *
+         *     Every role may call it.
          */
         get: operations["getFrame"];
         put?: never;
@@ -549,12 +609,16 @@ export interface paths {
         /**
          * List Users
          * @description List all users.
+         *
+         *     Needs the role admin.
          */
         get: operations["listUsers"];
         put?: never;
         /**
          * Create User
          * @description Create a user: a person or a program that may call the server.
+         *
+         *     Needs the role admin.
          */
         post: operations["createUser"];
         delete?: never;
@@ -573,6 +637,8 @@ export interface paths {
         /**
          * Get User
          * @description Return a user.
+         *
+         *     Needs the role admin.
          */
         get: operations["getUser"];
         put?: never;
@@ -585,6 +651,8 @@ export interface paths {
          * @description Change a user's role; deactivate or reactivate a user.
          *
          *     Deactivation revokes sessions, tokens and login links, and releases leases, all immediately. Answers stay.
+         *
+         *     Needs the role admin.
          */
         patch: operations["patchUser"];
         trace?: never;
@@ -601,6 +669,8 @@ export interface paths {
         /**
          * Create Login Link
          * @description Create a one-time login code; the link is `<this server>/login#<code>`.
+         *
+         *     Needs the role admin.
          */
         post: operations["createLoginLink"];
         delete?: never;
@@ -619,6 +689,8 @@ export interface paths {
         /**
          * List Tokens
          * @description List a user's API tokens, without their secrets.
+         *
+         *     Needs the role admin.
          */
         get: operations["listTokens"];
         put?: never;
@@ -639,6 +711,8 @@ export interface paths {
         /**
          * Get Numbers
          * @description Return a user's performance: number of answers, speed, accuracy on gold queries.
+         *
+         *     Needs the role admin.
          */
         get: operations["getNumbers"];
         put?: never;
@@ -659,6 +733,8 @@ export interface paths {
         /**
          * List Numbers
          * @description Return the performance of every annotator who ever answered.
+         *
+         *     Needs the role admin.
          */
         get: operations["listNumbers"];
         put?: never;
@@ -681,6 +757,8 @@ export interface paths {
         /**
          * Create Token
          * @description Create an API token for the caller; an administrator may create one for any user. It is shown only once.
+         *
+         *     Every role may call it. The token must be the caller's own; administrators may do it for every token.
          */
         post: operations["createToken"];
         delete?: never;
@@ -702,6 +780,8 @@ export interface paths {
         /**
          * Revoke Token
          * @description Revoke one of the caller's tokens; an administrator may revoke any. It takes effect immediately.
+         *
+         *     Every role may call it. The token must be the caller's own; administrators may do it for every token.
          */
         delete: operations["revokeToken"];
         options?: never;
@@ -726,6 +806,8 @@ export interface paths {
         /**
          * Logout
          * @description End the browser's session. API tokens stay valid.
+         *
+         *     Every role may call it.
          */
         delete: operations["logout"];
         options?: never;
@@ -743,6 +825,8 @@ export interface paths {
         /**
          * Me
          * @description Return the caller and the totals of their answers. This call also renews a browser's session.
+         *
+         *     Every role may call it.
          */
         get: operations["me"];
         put?: never;
@@ -763,6 +847,8 @@ export interface paths {
         /**
          * My Numbers
          * @description Return the caller's performance: number of answers, speed, accuracy on gold queries, ten at a time.
+         *
+         *     Every role may call it.
          */
         get: operations["myNumbers"];
         put?: never;
@@ -783,6 +869,8 @@ export interface paths {
         /**
          * My Tokens
          * @description List the caller's API tokens, without their secrets.
+         *
+         *     Every role may call it.
          */
         get: operations["myTokens"];
         put?: never;
@@ -803,6 +891,8 @@ export interface paths {
         /**
          * My Sessions
          * @description List the caller's browser sessions.
+         *
+         *     Every role may call it.
          */
         get: operations["mySessions"];
         put?: never;
@@ -810,6 +900,8 @@ export interface paths {
         /**
          * Logout Everywhere
          * @description End all of the caller's browser sessions, including this one. API tokens stay valid.
+         *
+         *     Every role may call it.
          */
         delete: operations["logoutEverywhere"];
         options?: never;
@@ -827,6 +919,8 @@ export interface paths {
         /**
          * List Gold
          * @description List the run's gold queries, newest first, each with its number of answers and their agreement.
+         *
+         *     Needs the role admin or learner.
          */
         get: operations["listGold"];
         put?: never;
@@ -836,6 +930,8 @@ export interface paths {
          *
          *     The run's `gold_rate` is the share of each annotator's queries that are gold. They look like the learner's queries.
          *     They are never in the run's ledger, and the learner never sees them.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["addGold"];
         delete?: never;
@@ -857,6 +953,8 @@ export interface paths {
         /**
          * Retire Gold
          * @description Retire a gold query: no annotator gets it any more. Answers to it stay.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         delete: operations["retireGold"];
         options?: never;
@@ -874,6 +972,8 @@ export interface paths {
         /**
          * Get Practice
          * @description Return the practice queries in the order to answer them.
+         *
+         *     Every role may call it.
          */
         get: operations["getPractice"];
         put?: never;
@@ -896,6 +996,8 @@ export interface paths {
         /**
          * Mark Practice
          * @description Return which labels of an answer are right, and why.
+         *
+         *     Every role may call it.
          */
         post: operations["practice"];
         delete?: never;
@@ -914,12 +1016,16 @@ export interface paths {
         /**
          * List Webhooks
          * @description List all webhooks.
+         *
+         *     Needs the role admin.
          */
         get: operations["listWebhooks"];
         put?: never;
         /**
          * Create Webhook
          * @description Create a webhook for an address that the operator has allowed. Its signing secret is shown only once.
+         *
+         *     Needs the role admin.
          */
         post: operations["createWebhook"];
         delete?: never;
@@ -938,6 +1044,8 @@ export interface paths {
         /**
          * Get Webhook
          * @description Return a webhook.
+         *
+         *     Needs the role admin.
          */
         get: operations["getWebhook"];
         put?: never;
@@ -945,6 +1053,8 @@ export interface paths {
         /**
          * Delete Webhook
          * @description Delete a webhook and its messages.
+         *
+         *     Needs the role admin.
          */
         delete: operations["deleteWebhook"];
         options?: never;
@@ -952,6 +1062,8 @@ export interface paths {
         /**
          * Patch Webhook
          * @description Change a webhook, or turn it off or on. Turning it on tries its pending messages immediately.
+         *
+         *     Needs the role admin.
          */
         patch: operations["patchWebhook"];
         trace?: never;
@@ -968,6 +1080,8 @@ export interface paths {
         /**
          * Ping Webhook
          * @description Send a test message.
+         *
+         *     Needs the role admin.
          */
         post: operations["pingWebhook"];
         delete?: never;
@@ -986,6 +1100,8 @@ export interface paths {
         /**
          * List Deliveries
          * @description List one page of a webhook's messages, newest first. Messages that ended more than a week ago are deleted.
+         *
+         *     Needs the role admin.
          */
         get: operations["listDeliveries"];
         put?: never;
@@ -1008,6 +1124,8 @@ export interface paths {
         /**
          * Redeliver
          * @description Send a message again, with the same id and content.
+         *
+         *     Needs the role admin.
          */
         post: operations["redeliver"];
         delete?: never;
@@ -1066,6 +1184,8 @@ export interface paths {
         /**
          * Get Metrics
          * @description Return counts in Prometheus' text format.
+         *
+         *     Needs the role admin or learner or viewer.
          */
         get: operations["metrics"];
         put?: never;
@@ -4414,6 +4534,8 @@ export interface operations {
                 state?: ("running" | "paused" | "finished") | null;
                 /** @description Only the runs with these ids. */
                 run?: string[] | null;
+                /** @description Only the runs that the caller created. */
+                mine?: boolean;
                 sort?: "newest" | "name" | "algorithm" | "episodes" | "success" | "cost";
                 descending?: boolean;
                 offset?: number;

@@ -6,7 +6,7 @@ export const ROLES: readonly { readonly role: Role; readonly may: string }[] = [
   { role: 'viewer', may: 'Sees everything except people, and changes nothing.' },
   {
     role: 'learner',
-    may: 'A program: creates runs, asks queries, uses answers, and sees everything except people.',
+    may: 'A program: creates runs, asks queries in them, uses the answers, and sees everything except people.',
   },
   { role: 'admin', may: 'May do everything, including adding people.' },
 ];
