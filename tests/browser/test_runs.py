@@ -4,10 +4,14 @@ import re
 from pathlib import Path
 from xml.etree import ElementTree
 
+import pytest
 from playwright.sync_api import expect
 from tests.browser.conftest import Open
-from tests.browser.kit import Complaints, Learner, ask, wait_for_heading
+from tests.browser.kit import Complaints, Learner, ask, log_in, wait_for_heading
 from tests.browser.test_access import violations
+
+from waypost import wire
+from waypost_server.serving import Served
 
 
 def test_a_run_is_followed_live(open_page: Open, learner: Learner) -> None:
@@ -68,9 +72,20 @@ def test_pause_and_resume(open_page: Open, learner: Learner) -> None:
     wait_for_heading(worker, ask("inspect_full")["question"])
 
 
-def test_only_who_may_pauses(open_page: Open, learner: Learner) -> None:
+def test_only_the_learner_of_a_run_may_pause_it(open_page: Open, learner: Learner, served: Served) -> None:
+    run = learner.create_run("mine")
+    page = open_page("/login", role=None)
+    log_in(page.context, served, "learner", "learner")
+    page.goto(f"/runs/{run}")
+    page.get_by_role("button", name="Pause").click()
+    expect(page.get_by_role("button", name="Resume")).to_be_visible()
+    assert learner.call("GET", f"/runs/{run}")["state"] == "paused"
+
+
+@pytest.mark.parametrize("role", ["viewer", "learner"])
+def test_only_who_may_pauses(open_page: Open, learner: Learner, role: wire.Role) -> None:
     run = learner.create_run("not mine")
-    page = open_page(f"/runs/{run}", role="viewer")
+    page = open_page(f"/runs/{run}", role=role)
     expect(page.get_by_role("heading", name="not mine")).to_be_visible()
     expect(page.get_by_text("person-")).to_be_visible()
     expect(page.get_by_role("button", name="Pause")).to_be_hidden()
