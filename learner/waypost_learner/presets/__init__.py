@@ -1,7 +1,7 @@
 """Finds presets by name, and replaces single values of a preset by name. Each preset has its own file."""
 
 import json
-from dataclasses import is_dataclass, replace
+from dataclasses import asdict, is_dataclass, replace
 from typing import Any, get_type_hints
 
 from pydantic import TypeAdapter, ValidationError
@@ -85,5 +85,5 @@ def _parsed(name: str, of: Any, before: Any, text: str) -> Any:
     try:
         return TypeAdapter(of).validate_json(text, strict=True)
     except ValidationError:
-        example = f"write {name}=VALUE, a JSON value such as {json.dumps(before)}"
+        example = f"write {name}=VALUE, a JSON value such as {json.dumps(before, default=asdict)}"
         raise ValueError(f"{text!r} is no value for {name!r}: {example}") from None

@@ -69,6 +69,10 @@ def test_without_views_nothing_is_planned() -> None:
     [
         ("relabelling=false", r"no value 'relabelling'; the values are: .*relabeling"),
         ("train_hi.batches=3", r"no value 'batches'; the values are: .*batch"),
+        (
+            "network.convolutions=[[16,6,4]]",
+            r"write network.convolutions=VALUE, a JSON value such as \[{\"channels\": \d+, \"kernel\": \d",
+        ),
         ("relabeling", r"'' is no value for 'relabeling': write relabeling=VALUE, a JSON value such as false"),
         ("relabeling=no", r"'no' is no value for 'relabeling'"),
         ("relabeling=1", r"'1' is no value for 'relabeling'"),
