@@ -77,7 +77,7 @@ def _changed(name: str, of: Any, before: Any, change: str | Changes) -> Any:
         raise ValueError(f"there is no value {unknown[0]!r}; the values are: {', '.join(types)}")
     return replace(
         before,
-        **{value: _changed(value, types[value], getattr(before, value), text) for value, text in change.items()},
+        **{one: _changed(f"{name}.{one}", types[one], getattr(before, one), text) for one, text in change.items()},
     )
 
 

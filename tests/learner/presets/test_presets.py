@@ -78,7 +78,7 @@ def test_without_views_nothing_is_planned() -> None:
         ("relabeling=1", r"'1' is no value for 'relabeling'"),
         ("warm_start=2.5", r"'2.5' is no value for 'warm_start'"),
         ("warm_start=null", r"'null' is no value for 'warm_start'"),
-        ("network.hidden=true", r"is no value for 'hidden'"),
+        ("network.hidden=true", r"is no value for 'network.hidden'"),
         ("train_hi=3", r"'train_hi' is a group of values"),
         ("warm_start.batch=3", r"'warm_start' is no group of values"),
         ("train_hi=3 train_hi.batch=3", r"'train_hi' is given twice"),
