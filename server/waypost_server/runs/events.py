@@ -2,9 +2,10 @@
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import func, insert, select
+from sqlalchemy import Text, cast, func, insert, select
 
 from waypost import wire
 from waypost_server.db.tables import events
@@ -14,6 +15,27 @@ PAGE = 500  # events read at once
 ANY = "events"  # the topic that a new event of any run wakes
 
 _INSERT = insert(events).returning(events.c.id)
+_NEWEST = select(func.coalesce(func.max(events.c.id), 0))
+_RUNNING = select(cast(func.pg_current_snapshot(), Text))  # "xmin:xmax:xid,xid"; both selects have one snapshot
+
+
+@dataclass(frozen=True)
+class Newest:
+    """The newest event of all runs, and the transactions that can still commit an older one.
+
+    Runs do not lock each other, so an event can be committed after one with a higher id. Its transaction was running
+    when the newer event was read.
+    """
+
+    id: int
+    running: frozenset[str] = frozenset()
+
+    def since(self, earlier: "Newest") -> "Newest":
+        """Return what is known after an earlier look; equal to it if no event was committed in between.
+
+        The end of a transaction counts as a change, although it may have committed no event.
+        """
+        return self if self.id != earlier.id else Newest(self.id, earlier.running & self.running)
 
 
 def topic(run: str) -> str:
@@ -33,13 +55,15 @@ def add(tx: Tx, run: str, event: str, data: Mapping[str, Any]) -> int:
 
 def newest(tx: Tx, run: str) -> int:
     """Return the id of a run's newest event, 0 before the first."""
-    newest = select(func.coalesce(func.max(events.c.id), 0)).where(events.c.run_id == run)
-    return int(tx.conn.execute(newest).scalar_one())
+    return int(tx.conn.execute(_NEWEST.where(events.c.run_id == run)).scalar_one())
 
 
-def newest_of_all(tx: Tx) -> int:
-    """Return the id of the newest event of any run, 0 before the first."""
-    return int(tx.conn.execute(select(func.coalesce(func.max(events.c.id), 0))).scalar_one())
+def newest_of_all(tx: Tx) -> Newest:
+    """Return the newest event of all runs; its id is 0 before the first."""
+    if tx.one_writer:
+        return Newest(tx.conn.execute(_NEWEST).scalar_one())
+    row = tx.conn.execute(select(_NEWEST.scalar_subquery(), _RUNNING.scalar_subquery())).one()
+    return Newest(row[0], frozenset(filter(None, row[1].split(":")[2].split(","))))
 
 
 def after(tx: Tx, run: str, cursor: int) -> list[wire.Event]:

@@ -41,18 +41,19 @@ async def stream_run(
 async def stream_changes(context: Context, request: Request) -> AsyncIterator[str]:
     """Yield a message whenever any run has changed, until the client disconnects or the server stops."""
     clock = asyncio.get_running_loop().time
-    cursor: int | None = None
+    cursor: events.Newest | None = None
     said_at = clock()
     yield "retry: 1000\n\n"
     while not context.hub.closed and not await request.is_disconnected():
         changed = context.hub.watch(events.ANY)
         newest = await context.db.read(events.newest_of_all)
-        if cursor is not None and newest != cursor:
-            yield f"event: changed\ndata: {wire.Change(newest=newest).model_dump_json()}\n\n"
+        seen = newest.since(cursor or newest)
+        if cursor is not None and seen != cursor:
+            yield f"event: changed\ndata: {wire.Change(newest=newest.id).model_dump_json()}\n\n"
             said_at = clock()
             await asyncio.sleep(CHANGES_SECONDS)
         elif clock() - said_at >= PING_SECONDS:
             yield ": still here\n\n"
             said_at = clock()
-        cursor = newest
+        cursor = seen
         await wakeups.pause(changed, context.settings.poll_seconds)

@@ -8,9 +8,12 @@ from typing import Any
 
 import httpx2
 import pytest
+from sqlalchemy import create_engine
 from tests.server.kit import API, Caller, Service, query
 
 from waypost_server import serving
+from waypost_server.db.transaction import Tx
+from waypost_server.runs import events as run_events
 from waypost_server.settings import Settings
 
 Start = Callable[[Settings], serving.Served]
@@ -151,3 +154,22 @@ def test_whoever_looks_at_all_runs_hears_that_one_changed(real: Service) -> None
     real.learner.ask(run, query())
     listener.join(10)
     assert heard == [events(real.viewer, run, 2)[-1]["id"]]
+
+
+def test_a_change_that_is_committed_after_a_newer_one_is_announced_too(cluster: Any, start_server: Start) -> None:
+    served = start_server(Settings(database=cluster.create()))
+    engine = create_engine(served.db.url)
+    with httpx2.Client(base_url=served.url, timeout=10) as client, engine.connect() as slow:
+        service = Service(client, served.db)
+        first, second = service.learner.create_run(), service.learner.create_run()
+        with client.stream("GET", f"{API}/events", headers=service.viewer.headers) as reply:
+            lines = reply.iter_lines()
+            assert next(lines) == "retry: 1000"
+            time.sleep(0.5)  # the stream has read where it begins
+            older = run_events.add(Tx(slow), first, "run", {"state": "paused"})
+            service.learner.patch(second, state="paused")
+            newer = next(line for line in lines if line.startswith("data: "))
+            assert json.loads(newer.removeprefix("data: "))["newest"] > older
+            slow.commit()
+            assert next(line for line in lines if line.startswith("data: ")) == newer
+    engine.dispose()
