@@ -41,7 +41,7 @@ class Database:
         self.url = parse(url)
         lite = self.url.get_backend_name() == "sqlite"
         self._engine, _ = _prepared(self.url, schema.create)
-        self._read_engine = _sqlite(self.url, writes=False) if lite else self._engine
+        self._read_engine = _sqlite(self.url, writes=False) if lite else _snapshots(self._engine)
         self._readers = ThreadPoolExecutor(READERS, "waypost-read")
         self._writer: Writer = (
             GroupCommit(self._engine, committed) if lite else CommittingThreads(self._engine, committed, WRITERS)
@@ -152,6 +152,14 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
         conn.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
 
     return engine
+
+
+def _snapshots(engine: Engine) -> Engine:
+    """Return a PostgreSQL engine with the same connections, whose transactions read from one snapshot.
+
+    PostgreSQL's default, READ COMMITTED, gives each statement a snapshot of its own.
+    """
+    return engine.execution_options(isolation_level="REPEATABLE READ", postgresql_readonly=True)
 
 
 def _postgresql(url: URL) -> Engine:
