@@ -240,6 +240,26 @@ def test_what_does_not_succeed_is_sent_only_after_a_question(
     assert learner.answer_of(query)["segments"] == [*SEGMENTS[:4], {"subgoal": "north", "actions": ["up"] * 3}]
 
 
+def test_a_move_gets_a_key_of_its_own_but_none_that_is_in_use(
+    open_page: Open, learner: Learner, stage: Stage
+) -> None:
+    run = learner.create_run("own move keys")
+    [query] = learner.ask(run, ask())
+    stage(learner.served, query)
+    page = open_page(f"/work?run={run}")
+    is_here(page)
+    press(page, "?")
+    dialog = page.get_by_role("dialog", name="Keys")
+    dialog.get_by_role("button", name="Change the key of up").click()
+    for key, meaning in (("?", "Show every key"), ("Enter", "The subgoal is reached"), ("ArrowDown", "down")):
+        press(page, key)
+        expect(dialog.get_by_role("status")).to_contain_text(f"already means “{meaning}")
+    press(page, "k")
+    expect(dialog.get_by_role("status")).to_contain_text("“up” is K now")
+    press(page, "Escape", "n", "k")
+    expect(steps(page)).to_have_text("1")
+
+
 @pytest.mark.parametrize("flat", [False, True])
 def test_a_domain_without_a_renderer_is_played_with_letters(
     open_page: Open, learner: Learner, stage: Stage, flat: bool

@@ -1,9 +1,9 @@
 // @vitest-environment happy-dom
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { initial } from '../api/names';
-import { ANSWERABLE, type Vocabulary } from '../api/types';
+import type { Vocabulary } from '../api/types';
 import { keyOf, listen, match, printed, type KeyPress } from './keys';
-import { bindingsFor, collisions, type Binding, type Mode } from './registry';
+import { bindingsFor, collisions, MODES, type Binding } from './registry';
 
 const maze: Vocabulary = {
   domain: 'maze',
@@ -24,7 +24,6 @@ const awkward: Vocabulary = {
   ],
   actions: ['Left', 'skip', 'fire', 'noop'],
 };
-const MODES: Mode[] = [...ANSWERABLE, 'hier_demo', 'flat_demo', 'waiting', 'feedback', 'between'];
 
 const press = (key: string, more: Partial<KeyPress> = {}): KeyPress => ({
   key,

@@ -1,6 +1,6 @@
 // The one list of keys: every mode, its keys, and what they do.
 import { initial, readable } from '../api/names';
-import type { AnswerableKind, Vocabulary } from '../api/types';
+import { ANSWERABLE, type Vocabulary } from '../api/types';
 
 /** What a key can do. `choose:2` labels with the vocabulary's third subgoal or action; `act:2` steps with its third action. */
 export type Command =
@@ -43,7 +43,9 @@ export interface Binding {
 }
 type Group = 'Answer' | 'Player' | 'Task' | 'General';
 
-export type Mode = AnswerableKind | 'hier_demo' | 'flat_demo' | 'waiting' | 'feedback' | 'between';
+/** Every mode: what is on the screen, which decides what the keys do. */
+export const MODES = [...ANSWERABLE, 'hier_demo', 'flat_demo', 'waiting', 'feedback', 'between'] as const;
+export type Mode = (typeof MODES)[number];
 
 /** Return the bindings of a mode. If a subgoal or an action has the key of another command, that command loses the key. */
 export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[] {

@@ -2,7 +2,7 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import { ANSWERABLE, type Vocabulary } from '../api/types';
 import { bindingsFor, collisions, type Binding } from './registry';
-import { loadKeymap, refusal, remapped, saveKeymap, type Keymap } from './remap';
+import { idOf, loadKeymap, refusal, remapped, saveKeymap, type Keymap } from './remap';
 
 const maze: Vocabulary = {
   domain: 'maze',
@@ -46,6 +46,27 @@ describe('a key of one’s own', () => {
     expect(refused('fail', 'p', { pass: 'j' })).toBeNull();
   });
 
+  it('is refused if it has another meaning in a demonstration', () => {
+    const demo = bindingsFor('hier_demo', maze);
+    const refusedTo = (command: string, key: string, keymap: Keymap = {}): string | null =>
+      refusal(of(demo, command), key, keymap, maze);
+    expect(refusedTo('act:0', '?')).toContain('Show every key');
+    expect(refusedTo('act:0', 'Enter')).toContain('The subgoal is reached');
+    expect(refusedTo('act:0', 'n')).toContain('north');
+    expect(refusedTo('act:0', 'ArrowDown')).toContain('down');
+    expect(refusedTo('reached', 'ArrowDown')).toContain('down');
+    expect(refusedTo('act:0', 'j')).toBeNull();
+    expect(refusedTo('act:1', 'j', { [idOf(of(demo, 'act:0'))]: 'j' })).toContain('up');
+    expect(refused('undo', 'Shift+Backspace')).toContain('Start over');
+  });
+
+  it('belongs to the name of a move, at any place in the vocabulary', () => {
+    const keymap = { [idOf(of(bindingsFor('hier_demo', maze), 'act:3'))]: 'l' };
+    const other = { ...maze, actions: ['right', 'left', 'down', 'up'] };
+    expect(of(remapped(bindingsFor('hier_demo', other), keymap), 'act:0').keys).toEqual(['l']);
+    expect(of(remapped(bindingsFor('hier_demo', other), keymap), 'act:3').keys).toEqual(['ArrowUp']);
+  });
+
   it('cannot be a key that the browser needs', () => {
     for (const key of ['Tab', 'Escape', 'Shift']) expect(refused('pass', key)).toContain('cannot be chosen');
   });
@@ -56,6 +77,14 @@ describe('a key of one’s own', () => {
       expect(collisions(remapped(bindingsFor(mode, maze), keymap))).toEqual([]);
     }
     expect(of(remapped(bindingsFor('label_hi', maze), keymap), 'choose:2').keys).toEqual(['3']);
+  });
+
+  it('never does two things, even where two moves got the same key in different domains', () => {
+    const keymap = { 'act up': 'j', 'act down': 'j' };
+    const bindings = remapped(bindingsFor('hier_demo', maze), keymap);
+    expect(collisions(bindings)).toEqual([]);
+    expect(of(bindings, 'act:0').keys).toEqual(['j']);
+    expect(of(bindings, 'act:1').keys).toEqual(['ArrowDown']);
   });
 });
 

@@ -1,28 +1,32 @@
 // Keys that a person has chosen instead of the default keys.
-import { ANSWERABLE, type Vocabulary } from '../api/types';
+import type { Vocabulary } from '../api/types';
 import { printed } from './keys';
-import { bindingsFor, type Binding, type Mode } from './registry';
+import { bindingsFor, MODES, type Binding } from './registry';
 
 /** The chosen keys, by the id of their binding: see `idOf`. */
 export type Keymap = Readonly<Record<string, string>>;
 
-const MODES: readonly Mode[] = [...ANSWERABLE, 'waiting'];
 const KEPT_KEYS = new Set(['Escape', 'Tab', 'Shift', 'Control', 'Alt', 'Meta', 'Dead', 'Unidentified']);
 
 /** Return a binding's id, the same in every vocabulary: subgoals and actions are identified by name, not by number. */
-export function idOf(binding: Binding): string {
-  return binding.command.startsWith('choose:') ? `choose ${binding.label}` : binding.command;
+export function idOf({ command, label }: Binding): string {
+  const [verb, number] = command.split(':');
+  return number === undefined ? command : `${verb} ${label}`;
 }
 
 /** Return the bindings with the chosen keys. Other bindings lose a chosen key. */
 export function remapped(bindings: readonly Binding[], keymap: Keymap): readonly Binding[] {
-  const chosen = bindings.map((binding) => keymap[idOf(binding)]);
-  const taken = new Set(chosen);
-  return bindings.map((binding, index) => {
-    const key = chosen[index];
-    if (key !== undefined) return { ...binding, keys: [key] };
-    return binding.keys.some((one) => taken.has(one))
-      ? { ...binding, keys: binding.keys.filter((one) => !taken.has(one)) }
+  const owners = new Map<string, Binding>(); // of the chosen keys
+  for (const binding of bindings) {
+    const key = keymap[idOf(binding)];
+    // Two names may have got the same key in two domains. Where both names are, the first has the key.
+    if (key !== undefined && !owners.has(key)) owners.set(key, binding);
+  }
+  return bindings.map((binding) => {
+    const key = keymap[idOf(binding)];
+    if (key !== undefined && owners.get(key) === binding) return { ...binding, keys: [key] };
+    return binding.keys.some((one) => owners.has(one))
+      ? { ...binding, keys: binding.keys.filter((one) => !owners.has(one)) }
       : binding;
   });
 }
