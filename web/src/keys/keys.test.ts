@@ -3,6 +3,7 @@ import { afterEach, describe, expect, it, vi } from 'vitest';
 import { initial } from '../api/names';
 import type { Vocabulary } from '../api/types';
 import { keyOf, listen, match, printed, type KeyPress } from './keys';
+import { remapped } from './remap';
 import { bindingsFor, collisions, MODES, type Binding } from './registry';
 
 const maze: Vocabulary = {
@@ -27,6 +28,7 @@ const awkward: Vocabulary = {
 
 const press = (key: string, more: Partial<KeyPress> = {}): KeyPress => ({
   key,
+  code: '',
   shiftKey: false,
   ctrlKey: false,
   altKey: false,
@@ -144,6 +146,36 @@ describe('a key press', () => {
     expect(keyOf(press('Enter', { shiftKey: true }))).toBe('Shift+Enter');
   });
 
+  it.each([
+    ['Russian', 'з', 'KeyP', 'p'],
+    ['Russian, a letter where others have a sign', 'х', 'BracketLeft', '['],
+    ['Greek', 'π', 'KeyP', 'p'],
+    ['Hebrew', 'פ', 'KeyP', 'p'],
+    ['Arabic, two letters on one key', 'لا', 'KeyB', 'b'],
+    ['Thai, a letter where others have a digit', 'ๅ', 'Digit1', '1'],
+    ['Thai, a mark', '่', 'KeyJ', 'j'],
+    ['Persian digits', '۲', 'Digit2', '2'],
+  ])('is named by its place where the letters are not Latin: %s', (_, key, code, name) => {
+    expect(keyOf(press(key, { code }))).toBe(name);
+  });
+
+  it('is named by its place with Shift, too', () => {
+    expect(keyOf(press('Ы', { code: 'KeyS', shiftKey: true }))).toBe('Shift+s');
+  });
+
+  it.each([
+    ['AZERTY', 'a', 'KeyQ', 'a'],
+    ['AZERTY', 'm', 'Semicolon', 'm'],
+    ['AZERTY', 'é', 'Digit2', 'é'],
+    ['Dvorak', 'p', 'KeyR', 'p'],
+    ['Dvorak', ',', 'KeyW', ','],
+    ['German', 'ö', 'Semicolon', 'ö'],
+    ['Russian', '?', 'Digit7', '?'],
+    ['any', 'Enter', 'NumpadEnter', 'Enter'],
+  ])('is named by what it types where that is Latin, a digit or a sign: %s %s', (_, key, code, name) => {
+    expect(keyOf(press(key, { code }))).toBe(name);
+  });
+
   it('is printed as on a keyboard', () => {
     expect(['p', 'ArrowLeft', ' ', 'Shift+Enter', 'Home'].map(printed)).toEqual([
       'P',
@@ -163,6 +195,13 @@ describe('a key press', () => {
     for (const held of ['ctrlKey', 'altKey', 'metaKey', 'isComposing'] as const) {
       expect(meaning('p', null, { [held]: true })).toBeNull();
     }
+  });
+
+  it('answers on a Russian keyboard, with default keys and with keys of one’s own', () => {
+    expect(meaning('з', null, { code: 'KeyP' })).toBe('pass');
+    const changed = remapped(inspect, { pass: keyOf(press('о', { code: 'KeyJ' })) });
+    expect(match(press('о', { code: 'KeyJ' }), null, changed)?.command).toBe('pass');
+    expect(match(press('j', { code: 'KeyJ' }), null, changed)?.command).toBe('pass'); // the layout is switched
   });
 
   it('belongs to a field while one is typed in', () => {

@@ -4,14 +4,38 @@ import type { Binding, Command } from './registry';
 /** The part of a KeyboardEvent that identifies the key. */
 export type KeyPress = Pick<
   KeyboardEvent,
-  'key' | 'shiftKey' | 'ctrlKey' | 'altKey' | 'metaKey' | 'repeat' | 'isComposing'
+  'key' | 'code' | 'shiftKey' | 'ctrlKey' | 'altKey' | 'metaKey' | 'repeat' | 'isComposing'
 >;
 
 /** Return the name of a key: `p`, `?`, `Enter`, `Shift+Enter`, `Shift+s`. */
 export function keyOf(press: KeyPress): string {
-  const key = press.key.length === 1 ? press.key.toLowerCase() : press.key;
+  const typed = isForeign(press.key) ? placeOf(press.code) : undefined;
+  const key = typed ?? (press.key.length === 1 ? press.key.toLowerCase() : press.key);
   const shifts = press.shiftKey && (key.length > 1 || /[a-z ]/.test(key));
   return shifts ? `Shift+${key}` : key;
+}
+
+/**
+ * Return whether a key types a letter, mark or digit of a script other than Latin. Only such a key is named by its place:
+ * on AZERTY or Dvorak, the key that types P is the one that is printed P.
+ */
+function isForeign(key: string): boolean {
+  return /^[\p{L}\p{M}\p{Nd}]+$/u.test(key) && !/[\p{Script=Latin}0-9]/u.test(key);
+}
+
+/** What the keys that are not letters or digits type on a US keyboard. */
+const SIGNS: Readonly<Record<string, string>> = {
+  BracketLeft: '[',
+  BracketRight: ']',
+  Comma: ',',
+  Period: '.',
+  Minus: '-',
+  Equal: '=',
+};
+
+/** Return what the key at a place types on a US keyboard; undefined if no binding could have it. */
+function placeOf(code: string): string | undefined {
+  return /^(?:Key|Digit)(.)$/.exec(code)?.[1]?.toLowerCase() ?? SIGNS[code];
 }
 
 const PRINTED: Readonly<Record<string, string>> = {
