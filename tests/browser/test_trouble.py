@@ -50,6 +50,27 @@ def test_an_answer_survives_an_outage(open_page: Open, learner: Learner, complai
     assert learner.call("GET", f"/runs/{run}/costs")["total"] == 3
 
 
+def test_an_answer_is_sent_from_memory_while_the_storage_is_full(
+    open_page: Open, learner: Learner, complaints: Complaints
+) -> None:
+    complaints.expect("net::ERR_")
+    run = learner.create_run("full storage")
+    [query] = learner.ask(run, ask("inspect_full"))
+    page = open_page(f"/work?run={run}", intercepted=True)
+    wait_for_heading(page, QUESTION)
+    full = "() => { throw new DOMException('The storage is full.', 'QuotaExceededError') }"
+    page.evaluate(f"() => {{ Storage.prototype.setItem = {full} }}")
+    page.route("**/api/**", lambda route: route.abort())
+    page.keyboard.press("f")
+    expect(page.get_by_text("1 unsaved, lost if this tab closes")).to_be_visible()
+    wait_for_heading(page, "The server cannot be reached")
+    expect(page.get_by_text("If you close or reload this tab, 1 answer will be lost.")).to_be_visible()
+    page.unroute("**/api/**")
+    assert learner.answer_of(query) == {"kind": "inspect_full", "verdict": "fail"}
+    wait_for_heading(page, "Waiting for the learner")
+    expect(page.get_by_text("lost")).to_be_hidden()
+
+
 def test_an_answer_whose_receipt_was_lost_counts_once(
     open_page: Open, learner: Learner, complaints: Complaints
 ) -> None:

@@ -9,6 +9,7 @@ class Shell {
   #given: readonly Binding[] = $state.raw(COMMON_BINDINGS);
   readonly bindings: readonly Binding[] = $derived(remapped(this.#given, this.keymap));
   unsaved = $state(0);
+  unsavedAreKept = $state(true); // in the tab's storage; if not, they are lost when the tab closes
   me: Me | null = $state.raw(null);
   vocabulary: Vocabulary | null = $state.raw(null); // of the query on the screen
   helpOpen = $state(false);

@@ -78,6 +78,7 @@ describe('a session', () => {
   });
   afterEach(() => {
     session.stop();
+    vi.restoreAllMocks();
     vi.useRealTimers();
   });
 
@@ -157,6 +158,18 @@ describe('a session', () => {
     expect(server.released).toEqual([4]);
     session.submit(PASS);
     expect(shown()).toBe(2);
+  });
+
+  it('goes on to the next query while the storage is full', async () => {
+    vi.spyOn(sessionStorage, 'setItem').mockImplementation(() => {
+      throw new DOMException('The storage is full.', 'QuotaExceededError');
+    });
+    answer.mockResolvedValue(receipt(assignment(2)));
+    await started([assignment(1)]);
+    session.submit(PASS);
+    await settled();
+    expect(answer).toHaveBeenCalledOnce();
+    expect([shown(), session.phase]).toEqual([2, 'task']);
   });
 
   it('says when the tab closes, and which answers it still sends', async () => {

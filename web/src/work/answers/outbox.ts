@@ -29,10 +29,15 @@ export function attempted(outbox: Outbox, assignment: number): Outbox {
   );
 }
 
-/** Keep the outbox, so that it survives a reload. */
-export function save(storage: Storage, outbox: Outbox): void {
-  if (outbox.length === 0) storage.removeItem(KEY);
-  else storage.setItem(KEY, JSON.stringify(outbox));
+/** Keep the outbox, so that it survives a reload. Return whether it is kept: the storage may be full or off. */
+export function save(storage: Storage, outbox: Outbox): boolean {
+  try {
+    if (outbox.length === 0) storage.removeItem(KEY);
+    else storage.setItem(KEY, JSON.stringify(outbox));
+    return true;
+  } catch {
+    return outbox.length === 0;
+  }
 }
 
 /** Return the outbox that was kept; an empty one if the storage contains anything else. */

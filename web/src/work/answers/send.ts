@@ -10,8 +10,7 @@ const postAnswer: SendAnswer = ({ assignment, token, answer, key }, next) => {
   );
 };
 
-export const sender = new AnswerSender(
-  postAnswer,
-  sessionStorage,
-  (outbox) => (shell.unsaved = outbox.length),
-);
+export const sender = new AnswerSender(postAnswer, sessionStorage, (outbox, isKept) => {
+  shell.unsaved = outbox.length;
+  shell.unsavedAreKept = isKept;
+});

@@ -22,6 +22,11 @@ const receipt: Receipt = {
   next_problem: null,
 };
 
+const fillStorage = () =>
+  vi.spyOn(sessionStorage, 'setItem').mockImplementation(() => {
+    throw new DOMException('The storage is full.', 'QuotaExceededError');
+  });
+
 describe('the outbox', () => {
   beforeEach(() => sessionStorage.clear());
 
@@ -49,8 +54,9 @@ describe('the sender', () => {
   const next: LeaseRequest = { wait: 0, kinds: [...KINDS], run: null, defer: 0, ahead: false, tab: 'tab' };
   const listener = { stored: vi.fn(), refused: vi.fn() };
   let outbox: Outbox = [];
+  let isKept = true;
   const newAnswerSender = (): AnswerSender => {
-    const sender = new AnswerSender(answer, sessionStorage, (now) => (outbox = now));
+    const sender = new AnswerSender(answer, sessionStorage, (now, kept) => ([outbox, isKept] = [now, kept]));
     sender.listen(listener);
     return sender;
   };
@@ -60,7 +66,10 @@ describe('the sender', () => {
     vi.resetAllMocks();
     sessionStorage.clear();
   });
-  afterEach(() => vi.useRealTimers());
+  afterEach(() => {
+    vi.restoreAllMocks();
+    vi.useRealTimers();
+  });
 
   it('asks for the next query with the answer, and drops the answer from the outbox with the receipt', async () => {
     answer.mockResolvedValue(receipt);
@@ -128,6 +137,31 @@ describe('the sender', () => {
     answer.mockRejectedValue(late);
     expect(await newAnswerSender().send(pending(1), next)).toBeNull();
     expect(listener.refused).toHaveBeenCalledWith(late);
+    expect(outbox).toEqual([]);
+  });
+
+  it('sends an answer that the full storage cannot keep, and says that it is not kept until it is stored', async () => {
+    fillStorage();
+    let store: (stored: Receipt) => void = () => undefined;
+    answer.mockReturnValue(new Promise((resolve) => (store = resolve)));
+    const sent = newAnswerSender().send(pending(1), next);
+    expect(answer).toHaveBeenCalledWith(pending(1), next);
+    expect([outbox.length, isKept]).toEqual([1, false]);
+    store(receipt);
+    expect(await sent).toBe(receipt);
+    expect([outbox.length, isKept]).toEqual([0, true]);
+  });
+
+  it('sends an answer again from memory, and keeps it as soon as the storage has room', async () => {
+    const storage = fillStorage();
+    answer.mockRejectedValue(new Unreachable());
+    await newAnswerSender().send(pending(1), next);
+    expect([outbox.length, isKept]).toEqual([1, false]);
+    storage.mockRestore();
+    await vi.advanceTimersByTimeAsync(500);
+    expect([load(sessionStorage).length, isKept]).toEqual([1, true]);
+    answer.mockResolvedValue(receipt);
+    await vi.advanceTimersByTimeAsync(1000);
     expect(outbox).toEqual([]);
   });
 

@@ -14,22 +14,25 @@ export interface AnswerListener {
 }
 const NOBODY: AnswerListener = { stored: () => undefined, refused: () => undefined };
 
+/** Called when the outbox has changed; `isKept`: it would survive a reload. */
+export type OutboxListener = (outbox: Outbox, isKept: boolean) => void;
+
 export class AnswerSender {
   readonly #send: SendAnswer;
   readonly #storage: Storage;
-  readonly #changed: (outbox: Outbox) => void;
+  readonly #changed: OutboxListener;
   #outbox: Outbox;
   #listener = NOBODY;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #underway = new Set<number>(); // assignments whose answer is being sent right now
   #flushing: Promise<Assignment | null> | null = null;
 
-  constructor(send: SendAnswer, storage: Storage, changed: (outbox: Outbox) => void) {
+  constructor(send: SendAnswer, storage: Storage, changed: OutboxListener) {
     this.#send = send;
     this.#storage = storage;
     this.#changed = changed;
     this.#outbox = outboxes.load(storage);
-    changed(this.#outbox);
+    changed(this.#outbox, true);
   }
 
   /** Tell the listener which answers are stored or refused, until the returned function is called. */
@@ -99,7 +102,6 @@ export class AnswerSender {
 
   #set(outbox: Outbox): void {
     this.#outbox = outbox;
-    outboxes.save(this.#storage, outbox);
-    this.#changed(outbox);
+    this.#changed(outbox, outboxes.save(this.#storage, outbox));
   }
 }
