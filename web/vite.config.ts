@@ -2,8 +2,10 @@
 import { svelte } from '@sveltejs/vite-plugin-svelte';
 import { defineConfig } from 'vitest/config';
 
-export default defineConfig({
+export default defineConfig(({ mode }) => ({
   plugins: [svelte()],
+  // A test that puts a component on the page needs the Svelte of browsers.
+  ...(mode === 'test' ? { resolve: { conditions: ['browser'] } } : {}),
   build: {
     target: 'es2023',
     // The server's content security policy allows neither inline code nor data: URLs.
@@ -15,4 +17,4 @@ export default defineConfig({
     proxy: { '/api': { target: 'http://127.0.0.1:8000', ws: true } },
   },
   test: { include: ['src/**/*.test.ts'] }, // a test that needs a document says so in its first line
-});
+}));

@@ -301,6 +301,36 @@ def test_a_lease_that_ran_out_is_explained_and_work_goes_on(
     learner.close()
 
 
+def test_the_skip_dialog_closes_with_the_lease_of_its_query(
+    built_page: Path, tmp_path: Path, open_page: Open, complaints: Complaints
+) -> None:
+    complaints.expect("409")
+    settings = Settings(database=f"sqlite:///{tmp_path / 'waypost.db'}", page=built_page, lease_seconds=3)
+    with serving.background(settings) as served:
+        learner = Learner(served)
+        run = learner.create_run("skipped too late")
+        [query] = learner.ask(run, ask("inspect_full"))
+        page = open_page(f"/work?run={run}", at=served, intercepted=True)
+        wait_for_heading(page, QUESTION)
+        page.keyboard.press("s")
+        words = page.get_by_role("dialog").get_by_role("textbox")
+        words.fill("too dark")
+        problem = {"type": "/problems/lease-expired", "title": "Expired", "status": 409}
+        page.route("**/renew", lambda route: route.fulfill(status=409, json=problem))
+        expect(page.get_by_text("went back to the queue")).to_be_visible()
+        expect(page.get_by_role("dialog")).to_be_hidden()
+        page.unroute("**/renew")
+        wait_for_heading(page, QUESTION)
+        page.keyboard.press("s")
+        expect(words).to_have_value("")
+        expect(page.get_by_role("radio", name="I cannot tell")).to_be_checked()
+        page.keyboard.press("Enter")
+        expect(page.get_by_text("Skipped.")).to_be_visible()
+        assert learner.query(query)["state"] == "open"
+        page.goto("/login")
+        learner.close()
+
+
 def test_an_answer_after_a_sleep_past_the_lease_is_explained_and_its_labels_are_kept(
     built_page: Path, tmp_path: Path, open_page: Open, complaints: Complaints
 ) -> None:
