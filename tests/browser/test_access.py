@@ -1,5 +1,6 @@
 """Everybody can use it: no violations of WCAG 2.2 A and AA that axe can find, on any view, light and dark."""
 
+import re
 from typing import Any
 
 import pytest
@@ -128,6 +129,56 @@ def test_tab_goes_through_the_segments_and_out_again(open_page: Open, learner: L
     for _ in range(3):
         page.keyboard.press("Tab")
     expect(page.get_by_role("button", name="Keep").first).to_be_focused()
+
+
+def test_the_first_tab_leads_past_the_header(open_page: Open, learner: Learner, scheme: str) -> None:
+    learner.create_run("past the header")
+    page = open_page("/runs", scheme=scheme)
+    page.get_by_role("heading", name="Runs").wait_for()
+    page.keyboard.press("Tab")
+    skip = page.get_by_role("link", name="Skip to the content")
+    expect(skip).to_be_focused()
+    expect(skip).to_be_in_viewport(ratio=1)
+    assert violations(page) == []
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("heading", name="Runs")).to_be_focused()
+    assert page.url.endswith("/runs")
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("searchbox")).to_be_focused()
+    expect(skip).not_to_be_in_viewport()
+
+
+def test_the_focus_goes_to_the_heading_of_another_view_and_stays_in_the_same_one(
+    open_page: Open, learner: Learner
+) -> None:
+    run = learner.create_run("to land on")
+    learner.ask(run, ask("inspect_full"), ask("inspect_full", 1, question="The next one"))
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, ask("inspect_full")["question"])
+    page.get_by_role("link", name="Runs").press("Enter")
+    wait_for_heading(page, "Runs")
+    search = page.get_by_role("searchbox")
+    search.fill("to land on")
+    expect(page).to_have_url(re.compile("text=to"))
+    expect(page.get_by_role("row")).to_have_count(2)
+    expect(search).to_be_focused()
+    page.get_by_role("link", name="to land on").press("Enter")
+    wait_for_heading(page, "to land on")
+    page.get_by_role("link", name="Queries", exact=True).press("Enter")
+    page.get_by_role("combobox", name="Kind").wait_for()
+    expect(page.get_by_role("link", name="Queries", exact=True)).to_be_focused()
+    page.get_by_role("link", name="Inspect_FULL").first.press("Enter")
+    page.get_by_role("link", name="Next").or_(page.get_by_role("link", name="Previous")).first.wait_for()
+    expect(page.get_by_role("heading", level=1)).to_be_focused()
+    page.go_back()
+    wait_for_heading(page, "to land on")
+    page.get_by_role("link", name="Practice").click()
+    wait_for_heading(page, "Practice")
+    page.goto(f"/work?run={run}")
+    wait_for_heading(page, ask("inspect_full")["question"])
+    page.get_by_role("button", name="Pass").focus()
+    page.keyboard.press("f")
+    wait_for_heading(page, "The next one")
 
 
 @pytest.mark.parametrize("size", [(768, 1024), (1024, 768), (1440, 900), (1920, 1080), (844, 390)])

@@ -3,6 +3,7 @@ import { parseRoute, searchWith, type Route } from './route';
 
 class Router {
   route: Route = $state.raw({ view: 'nowhere' });
+  path = $state('');
   search = $state('');
 
   constructor() {
@@ -34,6 +35,7 @@ class Router {
   }
 
   #read(): void {
+    this.path = location.pathname;
     this.search = location.search;
     this.route = parseRoute(location.pathname, location.search);
   }
