@@ -153,7 +153,7 @@ def test_the_focus_goes_to_the_heading_of_another_view_and_stays_in_the_same_one
 ) -> None:
     run = learner.create_run("to land on")
     learner.ask(run, ask("inspect_full"), ask("inspect_full", 1, question="The next one"))
-    page = open_page(f"/work?run={run}")
+    page = open_page(f"/work?run={run}", role="admin")
     wait_for_heading(page, ask("inspect_full")["question"])
     page.get_by_role("link", name="Runs").press("Enter")
     wait_for_heading(page, "Runs")
