@@ -38,7 +38,6 @@ Refusal
 ├── TooManyAttempts        429  too many wrong login codes
 ├── TooManyMessages        429  too many messages on a play socket
 └── StorageFailed          503  the database failed and nothing was stored; try again
-    └── TooBusy                 too many requests wait for the store
 """
 
 from collections.abc import Sequence
@@ -285,9 +284,3 @@ class StorageFailed(Refusal):
     """The database failed. Nothing was stored, so send the same request again."""
 
     status, name, title = 503, "storage-failed", "The store failed"
-
-
-class TooBusy(StorageFailed):
-    """Too many requests wait for the store. Nothing was stored, so send the same request again."""
-
-    name, title = "too-busy", "Too many requests are waiting"

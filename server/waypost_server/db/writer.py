@@ -10,7 +10,7 @@ from queue import Empty, SimpleQueue
 from typing import Any, Protocol, TypeVar
 
 from sqlalchemy import Connection, Engine
-from sqlalchemy.exc import DBAPIError, IntegrityError, OperationalError
+from sqlalchemy.exc import DBAPIError, OperationalError
 
 from waypost_server import errors
 from waypost_server.db.wakeups import Topics
@@ -19,49 +19,20 @@ T = TypeVar("T")
 Work = Callable[[Connection, Topics], T]
 
 LARGEST_BATCH = 128
-MOST_WAITING = 1_000  # transactions; a server that is so far behind stores nothing more for those who come now
 ATTEMPTS = 8
-# PostgreSQL: serialization failure, deadlock, unique violation. A transaction looks before it inserts, so another one
-# was faster. The next attempt sees its row and says in its own words what is wrong.
-RETRIED = {"40001", "40P01", "23505"}
+RETRIED = {"40001", "40P01"}  # PostgreSQL: serialization failure, deadlock
 
 
 class Writer(Protocol):
     """Runs transactions, each all or nothing."""
 
     def submit(self, work: Work[T]) -> Future[T]:
-        """Queue a transaction; the future resolves after its commit.
-
-        Raises:
-            TooBusy: too many transactions are waiting.
-        """
+        """Queue a transaction; the future resolves after its commit."""
         ...
 
     def close(self) -> None:
         """Finish submitted transactions, then stop."""
         ...
-
-
-class Places:
-    """The places for waiting transactions."""
-
-    def __init__(self) -> None:
-        self._free = threading.Semaphore(MOST_WAITING)
-
-    def take(self) -> None:
-        """Take a place.
-
-        Raises:
-            TooBusy: there is none.
-        """
-        if not self._free.acquire(blocking=False):
-            raise errors.TooBusy(
-                "Too many requests wait for the store. Send this one again in a second.", retry_after=1
-            )
-
-    def leave(self, _done: Future[Any]) -> None:
-        """Free the place of a transaction that is over."""
-        self._free.release()
 
 
 @dataclass(frozen=True)
@@ -83,7 +54,6 @@ class GroupCommit:
         self._engine = engine
         self._committed = committed
         self._jobs: SimpleQueue[Job | None] = SimpleQueue()
-        self._places = Places()
         self._thread = threading.Thread(target=self._loop, name="waypost-write", daemon=True)
         self._thread.start()
 
@@ -92,13 +62,10 @@ class GroupCommit:
 
         Raises:
             StorageFailed: the thread has stopped, so the future would never resolve.
-            TooBusy: too many transactions are waiting.
         """
         if not self._thread.is_alive():
             raise errors.StorageFailed("The server's writer has stopped, so nothing can be stored: restart the server.")
-        self._places.take()
         future: Future[T] = Future()
-        future.add_done_callback(self._places.leave)
         self._jobs.put(Job(work, future))
         return future
 
@@ -142,16 +109,9 @@ class GroupCommit:
     def _commit(self, batch: list[Job]) -> None:
         topics: Topics = set()
         outcomes: list[tuple[Any, Exception | None]] = []
-        with self._engine.connect() as conn:
-            try:
-                transaction = conn.begin()
-            except OperationalError as locked:  # another process held the lock all the time that this waited
-                for job in batch:
-                    job.future.set_exception(_storage_failed(locked))
-                return
-            with transaction:
-                for job in batch:
-                    outcomes.append(_in_savepoint(conn, job.work, topics))
+        with self._engine.begin() as conn:
+            for job in batch:
+                outcomes.append(_in_savepoint(conn, job.work, topics))
         # The batch is on disk from here on.
         if topics:
             self._committed(topics)
@@ -179,24 +139,16 @@ def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[An
 
 
 class CommittingThreads:
-    """A few threads: each job is a transaction by itself, retried when another one came in between (`RETRIED`)."""
+    """A few threads: each job is a transaction by itself, retried after a serialization failure or a deadlock."""
 
     def __init__(self, engine: Engine, committed: Callable[[Topics], None], threads: int) -> None:
         self._engine = engine
         self._committed = committed
         self._pool = ThreadPoolExecutor(threads, "waypost-write")
-        self._places = Places()
 
     def submit(self, work: Work[T]) -> Future[T]:
-        """Queue a transaction; the future resolves after its commit.
-
-        Raises:
-            TooBusy: too many transactions are waiting.
-        """
-        self._places.take()
-        future = self._pool.submit(self._run, work)
-        future.add_done_callback(self._places.leave)
-        return future
+        """Queue a transaction; the future resolves after its commit."""
+        return self._pool.submit(self._run, work)
 
     def close(self) -> None:
         """Finish submitted transactions, then stop."""
@@ -208,10 +160,8 @@ class CommittingThreads:
             try:
                 with self._engine.begin() as conn:
                     result = work(conn, topics)
-            except (OperationalError, IntegrityError) as error:
+            except OperationalError as error:
                 if getattr(error.orig, "sqlstate", None) not in RETRIED or attempt == ATTEMPTS - 1:
-                    if isinstance(error, IntegrityError):
-                        raise
                     raise _storage_failed(error) from error
                 time.sleep(random.uniform(0, 0.01 * 2**attempt))  # noqa: S311 - jitter
                 continue

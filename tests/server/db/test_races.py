@@ -5,16 +5,12 @@ import random
 import threading
 import time
 from collections import Counter
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import httpx2
-from sqlalchemy import create_engine, text
 from tests.server.kit import VOCABULARY, Json, Service, in_process, query, right_answer, together
 
 from waypost import wire
-from waypost_server.answers import service as answers
 from waypost_server.app import create_app
 from waypost_server.db.transaction import Tx
 from waypost_server.leases import service as leases
@@ -24,7 +20,6 @@ from waypost_server.settings import Settings
 LEASE_SECONDS = 2.0
 N_QUERIES = 500
 RUN = {"name": "race", "algorithm": "x", "seed": 0, "vocabulary": VOCABULARY, "budget": N_QUERIES}
-WAITING = "SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock'"
 CHARGED = "SELECT count(*) AS n FROM ledger GROUP BY query_id"
 
 
@@ -105,54 +100,6 @@ def test_the_same_question_sent_many_times_at_once_is_one_query(service: Service
     run = service.learner.create_run(budget=1)
     asked = together(lambda _: service.learner.ask(run, query()), 16)
     assert len({one["id"] for (one,) in asked}) == 1
-
-
-def test_one_key_sent_at_once_for_two_runs_is_taken_once_and_refused_once(cluster: Any) -> None:
-    with in_process(cluster.create()) as service:
-        first, second = (held_in_a_new_run(service) for _ in range(2))
-        sent = wire.AnswerPost(token=first["token"], answer=right_answer(first["query"]["ask"]))
-        ada = service.annotator.get("/me")["id"]
-        post = answers.Post(first["id"], ada, sent.token, sent.answer, "one-key", 60)
-        reply = while_open(
-            service,
-            lambda tx: answers.answer(tx, post, None),
-            lambda: service.annotator.answer(second, expect=409, headers={"Idempotency-Key": "one-key"}),
-        )
-        assert reply["type"] == "/problems/idempotency-key-reused"
-        service.annotator.answer(second, headers={"Idempotency-Key": "another-key"})
-
-
-def test_a_query_skipped_twice_at_once_is_skipped_once(cluster: Any) -> None:
-    with in_process(cluster.create()) as service:
-        held, ada = held_in_a_new_run(service), service.annotator.get("/me")["id"]
-        body = wire.Release(token=held["token"], skip=True)
-        reply = while_open(
-            service,
-            lambda tx: leases.release(tx, held["id"], ada, body, Settings()),
-            lambda: service.annotator.release(held, 409, skip=True),
-        )
-        assert reply["type"] == "/problems/lease-ended"
-
-
-def held_in_a_new_run(service: Service) -> Json:
-    """A query of a new run, leased."""
-    run = service.learner.create_run()
-    service.learner.ask(run, query())
-    return dict(service.annotator.lease(run=run))
-
-
-def while_open(service: Service, work: Callable[[Tx], Any], call: Callable[[], Json]) -> Json:
-    """Do work in a transaction of another process; commit it once a call waits for it. Return the reply of the call."""
-    engine = create_engine(service.db.url)
-    with engine.connect() as other, engine.connect() as watcher, ThreadPoolExecutor() as pool:
-        work(Tx(other))
-        reply = pool.submit(call)
-        while not watcher.execute(text(WAITING)).scalar_one() and not reply.done():
-            time.sleep(0.01)
-        other.commit()
-        found = reply.result()
-    engine.dispose()
-    return found
 
 
 def test_an_answer_is_either_used_or_taken_back(service: Service) -> None:

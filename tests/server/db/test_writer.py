@@ -1,7 +1,5 @@
 """Writers: acknowledged means committed, whatever else is in the batch and whatever fails."""
 
-import asyncio
-import sqlite3
 import threading
 from collections.abc import Iterator
 from concurrent.futures import Future
@@ -51,12 +49,11 @@ def names(engine: Engine) -> list[str]:
         return list(conn.execute(text("SELECT name FROM notes ORDER BY name")).scalars())
 
 
-def held_up(writer: GroupCommit, topic: str | None = None) -> threading.Event:
+def held_up(writer: GroupCommit) -> threading.Event:
     """Keep the writer busy until the event is set, so that what is submitted meanwhile is one batch."""
     go, busy = threading.Event(), threading.Event()
 
-    def wait(_conn: Any, topics: set[str]) -> None:
-        topics |= {topic} if topic else set()
+    def wait(_conn: Any, _topics: Any) -> None:
         busy.set()
         go.wait(10)
 
@@ -113,48 +110,6 @@ def test_nothing_is_acknowledged_if_the_commit_fails(writer: GroupCommit, engine
     assert names(engine) == []
     failing[0] = False
     assert writer.submit(add("after")).result(10) == 1
-
-
-def test_a_batch_that_another_process_locks_out_waits_once(engine: Engine, tmp_path: Any) -> None:
-    """The other process takes the lock before the second of the writer's transactions, and gives it back later."""
-    other = sqlite3.connect(tmp_path / "notes.db", check_same_thread=False, isolation_level=None)
-    engine.dispose()
-    event.listen(engine, "do_connect", lambda _d, _r, _a, parameters: parameters.update(timeout=0.1))
-    statements: list[str] = []
-    event.listen(engine, "before_cursor_execute", lambda _c, _d, statement, *_: statements.append(statement))
-    writer = GroupCommit(engine, lambda _topics: other.execute("BEGIN IMMEDIATE") and None)
-    go = held_up(writer, topic="locked")
-    futures = [writer.submit(add(str(number))) for number in range(3)]
-    go.set()
-    for future in futures:
-        with pytest.raises(errors.StorageFailed, match=r"Nothing was stored .*locked"):
-            future.result(10)
-    assert sum(one.startswith("BEGIN") for one in statements) == 2
-    other.execute("ROLLBACK")
-    assert writer.submit(add("after")).result(10) == 1
-    writer.close()
-    other.close()
-
-
-def test_a_store_that_is_far_behind_refuses_more_until_it_has_caught_up(
-    database_url: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("waypost_server.db.writer.MOST_WAITING", 20)
-    db = Database(database_url)
-    go = threading.Event()
-
-    async def overload() -> None:
-        waiting = [asyncio.create_task(db.write(lambda _: go.wait(10))) for _ in range(20)]
-        await asyncio.sleep(0)  # now all of them are submitted
-        with pytest.raises(errors.TooBusy) as refused:
-            await db.write(lambda _: True)
-        assert refused.value.retry_after == 1
-        go.set()
-        assert await asyncio.gather(*waiting) == [True] * 20
-        assert await db.write(lambda _: True)
-
-    asyncio.run(overload())
-    db.close()
 
 
 def test_wake_ups_follow_the_commit(engine: Engine) -> None:
