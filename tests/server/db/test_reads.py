@@ -36,6 +36,7 @@ def test_a_read_cannot_write(db: Database) -> None:
     with pytest.raises(errors.StorageFailed, match="read-?only|readonly"):
         db.read_now(lambda tx: users.create_user(tx, "ann", "admin"))
     assert db.read_now(names) == []
+    assert db.write_now(lambda tx: users.create_user(tx, "bea", "admin")).name == "bea", "a write still works"
 
 
 def test_a_read_leaves_its_connection_ready_for_a_write(db: Database) -> None:
