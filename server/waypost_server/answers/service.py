@@ -7,7 +7,7 @@ returned, not raised, because an exception would roll back the transaction.
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Row, bindparam, insert, select, update
+from sqlalchemy import Row, bindparam, select, update
 
 from waypost import prices as pricing
 from waypost import wire
@@ -18,7 +18,7 @@ from waypost_server.answers.following import Following
 from waypost_server.db import canonical
 from waypost_server.db.tables import answers, assignments
 from waypost_server.db.tables import queries as query_table
-from waypost_server.db.transaction import Tx
+from waypost_server.db.transaction import UPSERTS, Tx
 from waypost_server.gold import schedule
 from waypost_server.leases import active_time
 from waypost_server.leases import service as leases
@@ -71,7 +71,14 @@ class Case:
 
 LOCK_QUERY = select(query_table).where(query_table.c.id == bindparam("query")).with_for_update()
 ANSWER_OF = select(answers).where(answers.c.assignment_id == bindparam("assignment"))
-_INSERT = insert(answers).returning(answers)
+# Answers of two runs lock different rows, so two of them can come here with the same Idempotency-Key. The second waits
+# until the first is committed or undone.
+_INSERT = {
+    name: insert(answers)
+    .on_conflict_do_nothing(index_elements=[answers.c.user_id, answers.c.idempotency_key])
+    .returning(answers)
+    for name, insert in UPSERTS.items()
+}
 _END = (
     update(assignments)
     .where(assignments.c.id == bindparam("assignment"))
@@ -127,7 +134,11 @@ def _check_key(tx: Tx, post: Post, case: Case) -> None:
     same = (answers.c.user_id == post.user, answers.c.idempotency_key == post.key)
     row = tx.conn.execute(select(answers).where(*same)).one_or_none()
     if row is not None and (row.assignment_id, row.digest) != (post.assignment, case.digest):
-        raise errors.KeyReused("This Idempotency-Key came before with another answer; use a new one.")
+        raise _key_reused()
+
+
+def _key_reused() -> errors.KeyReused:
+    return errors.KeyReused("This Idempotency-Key came before with another answer; use a new one.")
 
 
 def _repeat(tx: Tx, case: Case, earlier: Row[Any], wanted: LeaseRequest | None) -> Outcome:
@@ -196,7 +207,10 @@ def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> 
         "active_seconds": min(active_time.take(tx, post.user, post.idle_seconds), seconds),
         "created_at": tx.now,
     }
-    return tx.conn.execute(_INSERT, row).one()
+    stored = tx.conn.execute(_INSERT[tx.conn.dialect.name], row).one_or_none()
+    if stored is None:
+        raise _key_reused()
+    return stored
 
 
 def _receipt(stored: Row[Any], leased: Following) -> wire.Receipt:

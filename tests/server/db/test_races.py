@@ -8,9 +8,12 @@ from collections import Counter
 from typing import Any
 
 import httpx2
+import pytest
+from sqlalchemy import Connection, create_engine, text
 from tests.server.kit import VOCABULARY, Json, Service, in_process, query, right_answer, together
 
 from waypost import wire
+from waypost_server.answers import service as answers
 from waypost_server.app import create_app
 from waypost_server.db.transaction import Tx
 from waypost_server.leases import service as leases
@@ -157,3 +160,47 @@ def test_a_page_may_say_many_times_at_once_that_it_goes(database_url: str) -> No
         together(lambda _: service.annotator.leave("one"), 8)
         service.learner.ask(service.learner.create_run(), query())
         assert service.annotator.lease(tab="one", expect=204) is None
+
+
+def somebody_waits(conn: Connection) -> None:
+    """Return once another transaction waits for a lock."""
+    until = time.monotonic() + 10
+    while not conn.execute(text("SELECT count(*) FROM pg_locks WHERE NOT granted")).scalar_one():
+        assert time.monotonic() < until, "no transaction waits"
+        time.sleep(0.02)
+
+
+@pytest.mark.parametrize("is_committed", [True, False])
+def test_a_key_used_in_two_runs_at_once_is_refused_if_the_first_answer_is_stored(
+    cluster: Any, is_committed: bool
+) -> None:
+    with in_process(cluster.create()) as service:
+        held = []
+        for _ in range(2):
+            service.learner.ask(service.learner.create_run(), query())
+            held.append(service.annotator.lease())
+        first, second = held
+        user = service.annotator.get("/me")["id"]
+        content = wire.AnswerPost.model_validate({"token": first["token"], "answer": right_answer(query())}).answer
+        post = answers.Post(first["id"], user, first["token"], content, "abc", 30)
+        replies: list[Json] = []
+
+        def answer_second() -> None:
+            expect = 409 if is_committed else 200
+            replies.append(service.annotator.answer(second, expect=expect, headers={"Idempotency-Key": "abc"}))
+
+        engine = create_engine(service.db.url)
+        with engine.connect() as slow, engine.connect() as watch:
+            answers.answer(Tx(slow), post, None)
+            answering = threading.Thread(target=answer_second)
+            answering.start()
+            somebody_waits(watch)
+            slow.commit() if is_committed else slow.rollback()
+            answering.join()
+        engine.dispose()
+        (reply,) = replies
+        if is_committed:
+            assert reply["type"] == "/problems/idempotency-key-reused"
+        (again,) = service.annotator.get("/assignments")["assignments"]
+        assert again["id"] == (second if is_committed else first)["id"]
+        service.annotator.answer(again, headers={"Idempotency-Key": "def"})
