@@ -52,7 +52,13 @@ _LAST_ANSWERED = (
     .order_by(answers.c.id.desc())
     .limit(1)
 )
-_LOCK_ONE = select(queries.c.id).where(queries.c.id == bindparam("query"), IS_OPEN).with_for_update(skip_locked=True)
+_SKIPPED = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == bindparam("user"))
+# Since the query was selected, its annotator may have leased and skipped it in another request.
+_LOCK_ONE = (
+    select(queries.c.id)
+    .where(queries.c.id == bindparam("query"), IS_OPEN, ~_SKIPPED)
+    .with_for_update(skip_locked=True, of=queries)
+)
 
 
 def select_next(tx: Tx, request: LeaseRequest) -> int | None:
@@ -73,7 +79,7 @@ def select_next(tx: Tx, request: LeaseRequest) -> int | None:
     if tx.one_writer:
         return int(chosen.id)
     # Another transaction may be leasing the same query: lock it, or the next one that is free.
-    locked = tx.conn.execute(_LOCK_ONE, {"query": chosen.id}).one_or_none()
+    locked = tx.conn.execute(_LOCK_ONE, {"query": chosen.id, "user": request.user}).one_or_none()
     if locked is None:
         locked = tx.conn.execute(candidates.unlocked, parameters).one_or_none()
     return None if locked is None else int(locked.id)
@@ -111,11 +117,10 @@ def _reserved_for_another() -> ColumnElement[bool]:
 
 def _offered(kinds: Kinds | None, one_run: bool, shared: bool) -> Select[Any]:
     """Return the statement that selects the open queries that an annotator may get, best first."""
-    skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == bindparam("user"))
     running = exists().where(runs.c.id == queries.c.run_id, runs.c.state == "running")
     offered = (
         select(queries.c.id, queries.c.run_priority, queries.c.priority)
-        .where(IS_OPEN, running, ~skipped)
+        .where(IS_OPEN, running, ~_SKIPPED)
         .order_by(queries.c.run_priority.desc(), queries.c.priority.desc(), queries.c.id)
     )
     if shared:

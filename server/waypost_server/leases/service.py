@@ -122,7 +122,8 @@ def release(tx: Tx, assignment: int, user: int, body: wire.Release, settings: Se
     _reopen(tx, [found.query], "skipped" if body.skip else "released", reason=body.reason)
     if body.skip:
         active_time.take(tx, user, settings.idle_seconds)  # do not bill skipped time to the next query
-        tx.conn.execute(insert(skips).values(query_id=found.query, user_id=user))
+        # On PostgreSQL an annotator can, very rarely, get a query in one request while skipping it in another.
+        tx.conn.execute(tx.upsert(skips).values(query_id=found.query, user_id=user).on_conflict_do_nothing())
 
 
 def close_tab(tx: Tx, user: int, body: wire.Leave) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import httpx2
 import pytest
-from sqlalchemy import Connection, create_engine, text
+from sqlalchemy import Connection, create_engine, event, text
 from tests.server.kit import VOCABULARY, Json, Service, in_process, query, right_answer, together
 
 from waypost import wire
@@ -204,3 +204,25 @@ def test_a_key_used_in_two_runs_at_once_is_refused_if_the_first_answer_is_stored
         (again,) = service.annotator.get("/assignments")["assignments"]
         assert again["id"] == (second if is_committed else first)["id"]
         service.annotator.answer(again, headers={"Idempotency-Key": "def"})
+
+
+def test_a_query_that_is_skipped_while_its_annotator_leases_does_not_come_back(cluster: Any) -> None:
+    with in_process(cluster.create()) as service:
+        service.annotator.lease(expect=204)  # the annotator is at work, so the next lease does not record it
+        first, second = service.learner.ask(service.learner.create_run(), query(), query(ordinal=1))
+        user = service.annotator.get("/me")["id"]
+        wanted = LeaseRequest.of(wire.Lease(), user, Settings())
+
+        def skip(_conn: Any, _cursor: Any, statement: str, *_: Any) -> None:
+            if "ORDER BY answers.id DESC" in statement:  # the first query was selected, but is not locked yet
+                held = service.annotator.lease()
+                assert held["query"]["id"] == first["id"]
+                service.annotator.release(held, skip=True)
+
+        engine = create_engine(service.db.url)
+        event.listen(engine, "before_cursor_execute", skip)
+        with engine.begin() as conn:
+            leased = leases.lease(Tx(conn), wanted)
+        engine.dispose()
+        assert leased is not None
+        assert leased.query.id == second["id"]

@@ -6,6 +6,8 @@ import time
 import pytest
 from tests.server.kit import Service, in_process, query
 
+from waypost_server.leases import service as leases
+
 
 def kinds_of(*assignments: dict) -> list[str]:
     return [one["query"]["ask"]["kind"] for one in assignments]
@@ -78,6 +80,17 @@ def test_a_skipped_query_is_offered_to_others_only(service: Service) -> None:
     service.learner.ask(service.learner.create_run(), query())
     service.annotator.release(service.annotator.lease(), skip=True, reason="too dark")
     assert service.annotator.lease(expect=204) is None
+    service.user("otto", "annotator").lease()
+
+
+def test_a_query_that_was_skipped_before_can_be_skipped_again(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    held = service.annotator.lease()
+    service.annotator.release(held, skip=True)
+    user = service.annotator.get("/me")["id"]
+    service.db.write_now(lambda tx: leases.grant(tx, held["query"]["id"], user, 60))
+    (again,) = service.annotator.get("/assignments")["assignments"]
+    service.annotator.release(again, skip=True)
     service.user("otto", "annotator").lease()
 
 
