@@ -23,6 +23,7 @@ T = TypeVar("T")
 
 READERS = 4
 WRITERS = 8  # PostgreSQL only
+BUSY_SECONDS = 15  # SQLite only: how long a transaction waits while another process writes
 
 
 class BadDatabase(Exception):
@@ -48,7 +49,11 @@ class Database:
         )
 
     def write_now(self, work: Callable[[Tx], T]) -> T:
-        """Run a transaction and return its result once it is on disk."""
+        """Run a transaction and return its result once it is on disk.
+
+        Raises:
+            StorageFailed: nothing was stored.
+        """
         return self._writer.submit(lambda conn, topics: work(Tx(conn, topics))).result()
 
     def read_now(self, work: Callable[[Tx], T]) -> T:
@@ -60,7 +65,11 @@ class Database:
             raise errors.StorageFailed(f"The database could not be read: {_first_line(error)}") from error
 
     async def write(self, work: Callable[[Tx], T]) -> T:
-        """Run a transaction off the event loop and return its result once it is on disk."""
+        """Run a transaction off the event loop and return its result once it is on disk.
+
+        Raises:
+            StorageFailed: nothing was stored.
+        """
         return await asyncio.wrap_future(self._writer.submit(lambda conn, topics: work(Tx(conn, topics))))
 
     async def read(self, work: Callable[[Tx], T]) -> T:
@@ -130,7 +139,7 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
         url,
         pool_size=1 if writes else READERS,
         max_overflow=0,
-        connect_args={"check_same_thread": False, "timeout": 15},
+        connect_args={"check_same_thread": False, "timeout": BUSY_SECONDS},
     )
 
     @event.listens_for(engine, "connect")

@@ -3,9 +3,11 @@
 import random
 import threading
 import time
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import chain
 from queue import Empty, SimpleQueue
 from typing import Any, Protocol, TypeVar
 
@@ -27,7 +29,11 @@ class Writer(Protocol):
     """Runs transactions, each all or nothing."""
 
     def submit(self, work: Work[T]) -> Future[T]:
-        """Queue a transaction; the future resolves after its commit."""
+        """Queue a transaction; the future resolves after its commit.
+
+        Raises:
+            StorageFailed: the transaction was not queued.
+        """
         ...
 
     def close(self) -> None:
@@ -54,6 +60,7 @@ class GroupCommit:
         self._engine = engine
         self._committed = committed
         self._jobs: SimpleQueue[Job | None] = SimpleQueue()
+        self._closing = False
         self._thread = threading.Thread(target=self._loop, name="waypost-write", daemon=True)
         self._thread.start()
 
@@ -75,51 +82,77 @@ class GroupCommit:
         self._thread.join()
 
     def _loop(self) -> None:
-        while (first := self._jobs.get()) is not None:
-            batch, last = [first], False
-            while len(batch) < LARGEST_BATCH and not last:
-                try:
-                    job = self._jobs.get_nowait()
-                except Empty:
-                    break
-                if job is None:
-                    last = True
-                else:
-                    batch.append(job)
+        while not self._closing:
+            if batch := self._take(LARGEST_BATCH, wait=True):
+                self._run(batch)
+
+    def _take(self, most: int, *, wait: bool) -> list[Job]:
+        """Take the next jobs out of the queue. With `wait`, wait until there is one."""
+        taken: list[Job] = []
+        for place in range(most):
+            try:
+                job = self._jobs.get(block=wait and place == 0)
+            except Empty:
+                break
+            if job is None:
+                self._closing = True
+                break
             # From here on, a caller can no longer cancel its future, so every outcome can be delivered.
-            if begun := [job for job in batch if job.future.set_running_or_notify_cancel()]:
-                self._run(begun)
-            if last:
-                return
+            if job.future.set_running_or_notify_cancel():
+                taken.append(job)
+        return taken
 
     def _run(self, batch: list[Job]) -> None:
-        """Commit a batch. If the database fails, run each job of the batch in a transaction by itself."""
-        try:
-            self._commit(batch)
-        except DBAPIError as error:
-            if len(batch) > 1:
-                for job in batch:
-                    self._run([job])
-            else:
-                batch[0].future.set_exception(_storage_failed(error))
-        except Exception as error:
-            for job in batch:
-                job.future.set_exception(error)
+        """Commit a batch. If the database fails, run each job of the batch in a transaction by itself.
 
-    def _commit(self, batch: list[Job]) -> None:
+        A transaction that cannot begin has waited for another process (`BUSY_SECONDS`). Then all jobs fail, also those
+        in the queue. Otherwise the wait would start anew for each of them.
+        """
+        groups = deque([batch])
+        while groups:
+            group = groups.popleft()
+            try:
+                conn = self._begin()
+            except Exception as error:
+                _fail(chain(group, *groups, self._take(self._jobs.qsize(), wait=False)), error)
+                return
+            try:
+                self._commit(conn, group)
+            except DBAPIError as error:
+                if len(group) > 1:
+                    groups.extend([job] for job in group)
+                else:
+                    _fail(group, error)
+            except Exception as error:
+                _fail(group, error)
+
+    def _begin(self) -> Connection:
+        conn = self._engine.connect()
+        try:
+            conn.begin()
+        except BaseException:
+            conn.close()
+            raise
+        return conn
+
+    def _commit(self, begun: Connection, group: list[Job]) -> None:
         topics: Topics = set()
-        outcomes: list[tuple[Any, Exception | None]] = []
-        with self._engine.begin() as conn:
-            for job in batch:
-                outcomes.append(_in_savepoint(conn, job.work, topics))
-        # The batch is on disk from here on.
+        with begun as conn:
+            outcomes = [_in_savepoint(conn, job.work, topics) for job in group]
+            conn.commit()
+        # The group is on disk from here on.
         if topics:
             self._committed(topics)
-        for job, (result, error) in zip(batch, outcomes, strict=True):
+        for job, (result, error) in zip(group, outcomes, strict=True):
             if error is None:
                 job.future.set_result(result)
             else:
                 job.future.set_exception(error)
+
+
+def _fail(jobs: Iterable[Job], error: Exception) -> None:
+    for job in jobs:
+        job.future.set_exception(_storage_failed(error) if isinstance(error, DBAPIError) else error)
 
 
 def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:

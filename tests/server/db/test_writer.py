@@ -1,5 +1,6 @@
 """Writers: acknowledged means committed, whatever else is in the batch and whatever fails."""
 
+import sqlite3
 import threading
 from collections.abc import Iterator
 from concurrent.futures import Future
@@ -12,7 +13,7 @@ from sqlalchemy.exc import OperationalError
 from waypost_server import errors
 from waypost_server.db.engine import Database
 from waypost_server.db.transaction import Tx
-from waypost_server.db.writer import GroupCommit
+from waypost_server.db.writer import LARGEST_BATCH, GroupCommit
 
 
 def add(name: str) -> Any:
@@ -21,7 +22,8 @@ def add(name: str) -> Any:
 
 @pytest.fixture
 def engine(tmp_path: Any) -> Iterator[Engine]:
-    engine = create_engine(f"sqlite:///{tmp_path / 'notes.db'}", connect_args={"check_same_thread": False})
+    connect = {"check_same_thread": False, "timeout": 0.1}
+    engine = create_engine(f"sqlite:///{tmp_path / 'notes.db'}", connect_args=connect)
 
     @event.listens_for(engine, "connect")
     def connected(dbapi: Any, _record: Any) -> None:
@@ -110,6 +112,93 @@ def test_nothing_is_acknowledged_if_the_commit_fails(writer: GroupCommit, engine
     assert names(engine) == []
     failing[0] = False
     assert writer.submit(add("after")).result(10) == 1
+
+
+def test_a_database_that_fails_in_one_leaves_the_others_of_its_batch(writer: GroupCommit, engine: Engine) -> None:
+    def fail(_conn: Any, _topics: Any) -> None:
+        raise OperationalError("INSERT", {}, Exception("database or disk is full"))
+
+    go = held_up(writer)
+    first, failing, last = writer.submit(add("a")), writer.submit(fail), writer.submit(add("b"))
+    go.set()
+    assert (first.result(10), last.result(10)) == (1, 1)
+    with pytest.raises(errors.StorageFailed, match="full"):
+        failing.result(10)
+    assert names(engine) == ["a", "b"]
+
+
+class Intruder:
+    """Another process, which takes the store's lock just before the writer's n-th attempt from now on."""
+
+    def __init__(self, engine: Engine) -> None:
+        self._store = sqlite3.connect(str(engine.url.database), isolation_level=None, check_same_thread=False)
+        self._engine = engine
+        self.attempts = 0
+
+    def lock_at(self, attempt: int) -> None:
+        def attempted(_conn: Any) -> None:
+            self.attempts += 1
+            if self.attempts == attempt:
+                self._store.execute("BEGIN IMMEDIATE")
+
+        event.listen(self._engine, "engine_connect", attempted)
+
+    def leave(self) -> None:
+        self._store.close()
+
+
+@pytest.fixture
+def intruder(engine: Engine) -> Iterator[Intruder]:
+    intruder = Intruder(engine)
+    yield intruder
+    intruder.leave()
+
+
+def test_a_locked_store_keeps_nobody_waiting_longer_than_one_attempt(
+    writer: GroupCommit, engine: Engine, intruder: Intruder
+) -> None:
+    go = held_up(writer)
+    futures = [writer.submit(add(str(number))) for number in range(3 * LARGEST_BATCH)]
+    intruder.lock_at(1)
+    go.set()
+    for future in futures:
+        with pytest.raises(errors.StorageFailed, match=r"Nothing was stored \(database is locked\)") as refused:
+            future.result(10)
+        assert refused.value.retry_after == 1
+    assert intruder.attempts == 1
+    intruder.leave()
+    assert writer.submit(add("after")).result(10) == 1
+    assert names(engine) == ["after"]
+
+
+def test_a_store_that_is_locked_while_a_batch_is_repeated_is_tried_once(
+    writer: GroupCommit, engine: Engine, intruder: Intruder
+) -> None:
+    def fail(_conn: Any, _topics: Any) -> None:
+        raise OperationalError("INSERT", {}, Exception("disk I/O error"))
+
+    go = held_up(writer)
+    futures = [writer.submit(add("a")), writer.submit(fail), *(writer.submit(add(str(n))) for n in range(20))]
+    intruder.lock_at(3)
+    go.set()
+    assert futures[0].result(10) == 1
+    for future in futures[1:]:
+        with pytest.raises(errors.StorageFailed, match="database is locked"):
+            future.result(10)
+    assert intruder.attempts == 3, "the batch, the first job by itself, and the one that found the lock"
+
+
+def test_closing_a_locked_store_ends(engine: Engine, intruder: Intruder) -> None:
+    writer = GroupCommit(engine, lambda _topics: None)
+    go = held_up(writer)
+    futures = [writer.submit(add(str(number))) for number in range(2 * LARGEST_BATCH)]
+    intruder.lock_at(1)
+    closing = threading.Thread(target=writer.close)
+    closing.start()
+    go.set()
+    closing.join(10)
+    assert not closing.is_alive()
+    assert all(isinstance(future.exception(0), errors.StorageFailed) for future in futures)
 
 
 def test_wake_ups_follow_the_commit(engine: Engine) -> None:
