@@ -38,6 +38,7 @@ Refusal
 ├── TooManyAttempts        429  too many wrong login codes
 ├── TooManyMessages        429  too many messages on a play socket
 └── StorageFailed          503  the database failed and nothing was stored; try again
+    └── StoreBusy               too many requests wait to store something
 """
 
 from collections.abc import Sequence
@@ -284,3 +285,9 @@ class StorageFailed(Refusal):
     """The database failed. Nothing was stored, so send the same request again."""
 
     status, name, title = 503, "storage-failed", "The store failed"
+
+
+class StoreBusy(StorageFailed):
+    """Too many requests wait to store something. Nothing was stored, so send the same request again."""
+
+    name, title = "store-busy", "The store is busy"

@@ -52,7 +52,7 @@ class Database:
         """Run a transaction and return its result once it is on disk.
 
         Raises:
-            StorageFailed: nothing was stored.
+            StorageFailed, StoreBusy: nothing was stored.
         """
         return self._writer.submit(lambda conn, topics: work(Tx(conn, topics))).result()
 
@@ -68,7 +68,7 @@ class Database:
         """Run a transaction off the event loop and return its result once it is on disk.
 
         Raises:
-            StorageFailed: nothing was stored.
+            StorageFailed, StoreBusy: nothing was stored.
         """
         return await asyncio.wrap_future(self._writer.submit(lambda conn, topics: work(Tx(conn, topics))))
 

@@ -20,6 +20,8 @@ from waypost_server.db.wakeups import Topics
 T = TypeVar("T")
 Work = Callable[[Connection, Topics], T]
 
+# Far more than wait in a store that keeps up. Each keeps its request in memory, and the last one waits for all others.
+MOST_WAITING = 1_000
 LARGEST_BATCH = 128
 ATTEMPTS = 8
 RETRIED = {"40001", "40P01"}  # PostgreSQL: serialization failure, deadlock
@@ -32,13 +34,36 @@ class Writer(Protocol):
         """Queue a transaction; the future resolves after its commit.
 
         Raises:
-            StorageFailed: the transaction was not queued.
+            StorageFailed, StoreBusy: the transaction was not queued.
         """
         ...
 
     def close(self) -> None:
         """Finish submitted transactions, then stop."""
         ...
+
+
+class Places:
+    """The places of transactions that wait or run. With all of them taken, the next transaction is refused."""
+
+    def __init__(self) -> None:
+        self._free = threading.Semaphore(MOST_WAITING)
+
+    def take(self) -> None:
+        """Take a place.
+
+        Raises:
+            StoreBusy: there is none.
+        """
+        if not self._free.acquire(blocking=False):
+            raise errors.StoreBusy(
+                "Too many requests wait to be stored, so nothing was stored; send the same request again.",
+                retry_after=1,
+            )
+
+    def leave(self, _future: Future[Any]) -> None:
+        """Free the place of a transaction that is done."""
+        self._free.release()
 
 
 @dataclass(frozen=True)
@@ -59,6 +84,7 @@ class GroupCommit:
     def __init__(self, engine: Engine, committed: Callable[[Topics], None]) -> None:
         self._engine = engine
         self._committed = committed
+        self._places = Places()
         self._jobs: SimpleQueue[Job | None] = SimpleQueue()
         self._closing = False
         self._thread = threading.Thread(target=self._loop, name="waypost-write", daemon=True)
@@ -69,10 +95,13 @@ class GroupCommit:
 
         Raises:
             StorageFailed: the thread has stopped, so the future would never resolve.
+            StoreBusy: too many transactions wait.
         """
         if not self._thread.is_alive():
             raise errors.StorageFailed("The server's writer has stopped, so nothing can be stored: restart the server.")
+        self._places.take()
         future: Future[T] = Future()
+        future.add_done_callback(self._places.leave)
         self._jobs.put(Job(work, future))
         return future
 
@@ -177,11 +206,19 @@ class CommittingThreads:
     def __init__(self, engine: Engine, committed: Callable[[Topics], None], threads: int) -> None:
         self._engine = engine
         self._committed = committed
+        self._places = Places()
         self._pool = ThreadPoolExecutor(threads, "waypost-write")
 
     def submit(self, work: Work[T]) -> Future[T]:
-        """Queue a transaction; the future resolves after its commit."""
-        return self._pool.submit(self._run, work)
+        """Queue a transaction; the future resolves after its commit.
+
+        Raises:
+            StoreBusy: too many transactions wait.
+        """
+        self._places.take()
+        future = self._pool.submit(self._run, work)
+        future.add_done_callback(self._places.leave)
+        return future
 
     def close(self) -> None:
         """Finish submitted transactions, then stop."""

@@ -20,6 +20,7 @@ SHARED = problems.refusals(
     errors.NotJson,
     errors.Unprocessable,
     errors.StorageFailed,
+    errors.StoreBusy,
 )
 PROBLEM = {"$ref": "#/components/schemas/Problem"}
 PLAYED = (wire.PlayTake, wire.PlayOffer, wire.PlayMoves, wire.PlayStates, wire.PlayStage)

@@ -33,7 +33,7 @@ def test_a_read_does_not_see_what_is_committed_after_its_first_statement(db: Dat
 
 
 def test_a_read_cannot_write(db: Database) -> None:
-    with pytest.raises(errors.StorageFailed, match="read-?only|readonly"):
+    with pytest.raises(errors.StorageFailed, match=r"read-?only|readonly"):
         db.read_now(lambda tx: users.create_user(tx, "ann", "admin"))
     assert db.read_now(names) == []
     assert db.write_now(lambda tx: users.create_user(tx, "bea", "admin")).name == "bea", "a write still works"
