@@ -31,7 +31,7 @@ class Oracle(Protocol):
     def good_actions(self, instance: Any, origin: Any, state: Any, subgoal: Subgoal) -> Sequence[Action]:
         """Return pi*_g(s): every optimal action in `state` toward `subgoal`, the preferred one first.
 
-        None is optimal where nothing helps anymore, such as in a fall.
+        The sequence is empty where nothing helps anymore, such as in a fall.
         """
 
     def reached(self, instance: Any, origin: Any, state: Any, subgoal: Subgoal) -> bool:
