@@ -1,0 +1,48 @@
+// @vitest-environment happy-dom
+import { flushSync, mount, unmount } from 'svelte';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { api } from '../api/client';
+import type { Costs, Run, RunList as Runs } from '../api/types';
+import RunList from './RunList.svelte';
+import Tiles from './Tiles.svelte';
+
+vi.mock('../api/live', () => ({ throttled: (call: () => void) => call, watchAll: () => () => undefined }));
+
+const RUN = {
+  ...{ id: 'r', name: 'a run', algorithm: 'h-bc', seed: 0, state: 'running', priority: 0, vocabulary: {} },
+  ...{ episodes: null, episodes_done: 0, success_rate: null, budget: null, created_at: 0, open_queries: 1 },
+  ...{ spent: 1, reserved: 1 },
+} as unknown as Run;
+
+describe('one thing is not counted as many', () => {
+  let shown: Record<string, unknown> | undefined;
+  const text = (): string => document.body.textContent.replaceAll(/\s+/g, ' ');
+
+  beforeEach(() => {
+    const found: Runs & { annotators: [] } = { runs: [RUN], total: 1, annotators: [] };
+    vi.spyOn(api, 'GET').mockResolvedValue({ data: found, response: new Response() } as never);
+  });
+  afterEach(async () => {
+    if (shown) await unmount(shown);
+    vi.restoreAllMocks();
+  });
+
+  it('in the list of runs', async () => {
+    shown = mount(RunList, { target: document.body });
+    await vi.waitFor(() => expect(document.querySelector('[role=status]')?.textContent).toBe('1 run'));
+  });
+
+  it('in the numbers of a run', () => {
+    const costs = {
+      lo_total: 1,
+      seconds: 0,
+      first_at: { '0.8': { cost: 1, episode: 3 } },
+    } as unknown as Costs;
+    shown = mount(Tiles, { target: document.body, props: { run: { ...RUN, budget: 1 }, costs } });
+    flushSync();
+    for (const words of ['of 1 unit', '1 unit reserved', '1 unit on LO labels', '1 unit ep. 3']) {
+      expect(text()).toContain(words);
+    }
+    expect(text()).not.toContain('1 units');
+  });
+});
