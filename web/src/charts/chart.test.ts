@@ -36,6 +36,24 @@ describe('axes', () => {
     expect(found).toBeLessThanOrEqual(2 * count);
   });
 
+  it.each([
+    [0, 999, 2, false],
+    [0, 999, 3, false],
+    [0, 1, 2, false],
+    [0, 0.4, 1, false],
+    [0, 3, 2, true],
+    [7, 9, 1, true],
+    [0, 190, 2, true],
+  ])('have three ticks or more, so that one sees how even they are: %f to %f', (low, high, count, whole) => {
+    expect(ticks(low, high, count, whole).length).toBeGreaterThanOrEqual(3);
+    expect(ticks(low, high, count, whole).length).toBeLessThanOrEqual(6);
+  });
+
+  it('have no more ticks than there are whole numbers', () => {
+    expect(ticks(0, 1, 5, true)).toEqual([0, 1]);
+    expect(ticks(4, 4, 5, true)).toEqual([4]);
+  });
+
   it('of episodes have no half ones', () => {
     expect(ticks(0, 2, 6, true)).toEqual([0, 1, 2]);
   });

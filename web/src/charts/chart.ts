@@ -35,6 +35,9 @@ export function markOf(index: number): Mark {
   };
 }
 
+/** Two ticks do not show whether an axis is even. */
+const FEWEST = 3;
+
 /** Maps a value to its position on the screen, in pixels. */
 export type ToPixel = (value: number) => number;
 
@@ -43,10 +46,15 @@ export function scale(low: number, high: number, from: number, to: number): ToPi
   return scaleLinear([low, high > low ? high : low + 1], [from, to]);
 }
 
-/** Return round numbers from `low` to `high`, about `count` of them; `whole`: no fractions. */
+/** Return round numbers from `low` to `high`, about `count` of them but three or more if possible; `whole`: no fractions. */
 export function ticks(low: number, high: number, count: number, whole = false): number[] {
-  const found = scaleLinear([low, high], [0, 1]).ticks(count);
-  return whole ? found.filter(Number.isInteger) : found;
+  const ruler = scaleLinear([low, high], [0, 1]);
+  const about = (wanted: number) => {
+    const found = ruler.ticks(wanted);
+    return whole ? found.filter(Number.isInteger) : found;
+  };
+  const finer = [count, 3, 4, 5].find((wanted) => about(wanted).length >= FEWEST);
+  return about(finer ?? count);
 }
 
 /** Return the ranges of the axes: x from the smallest to the largest of all series, y from 0 to the largest. */
