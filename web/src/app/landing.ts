@@ -8,7 +8,7 @@ export function land(view: Element): void {
   place.focus({ preventScroll: true });
 }
 
-/** Focus the heading of a view as soon as it is loaded, unless the focus is moved before. The returned function gives up. */
+/** Focus the heading of a view once it is loaded, unless the focus is moved before. The returned function gives up. */
 export function landWhenLoaded(view: Element): () => void {
   const before = document.activeElement;
   if (before !== null && view.contains(before) && before.matches('a[aria-current]')) return () => undefined;

@@ -46,7 +46,7 @@ export function scale(low: number, high: number, from: number, to: number): ToPi
   return scaleLinear([low, high > low ? high : low + 1], [from, to]);
 }
 
-/** Return round numbers from `low` to `high`, about `count` of them but three or more if possible; `whole`: no fractions. */
+/** Return about `count` round numbers from `low` to `high`, three or more if possible; `whole`: no fractions. */
 export function ticks(low: number, high: number, count: number, whole = false): number[] {
   const ruler = scaleLinear([low, high], [0, 1]);
   const about = (wanted: number) => {

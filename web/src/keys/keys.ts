@@ -16,8 +16,8 @@ export function keyOf(press: KeyPress): string {
 }
 
 /**
- * Return whether a key types a letter, mark or digit of a script other than Latin. Only such a key is named by its place:
- * on AZERTY or Dvorak, the key that types P is the one that is printed P.
+ * Return whether a key types a letter, mark or digit of a script other than Latin. Only such a key is named by its
+ * place: on AZERTY or Dvorak, the key that types P is the one that is printed P.
  */
 function isForeign(key: string): boolean {
   return /^[\p{L}\p{M}\p{Nd}]+$/u.test(key) && !/[\p{Script=Latin}0-9]/u.test(key);
