@@ -1,0 +1,83 @@
+"""On a phone held upright, no view is wider than the window."""
+
+import pytest
+from playwright.sync_api import Page, expect
+from tests.browser.conftest import Open
+from tests.browser.kit import Learner, ask, wait_for_heading
+
+PHONE = {"width": 390, "height": 844}
+KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
+
+
+def too_wide(page: Page) -> list[str]:
+    """What reaches beyond the right edge of the window and cannot be scrolled to in a part of its own."""
+    return list(
+        page.evaluate("""() => {
+          if (document.documentElement.scrollWidth <= innerWidth) return []
+          const scrolls = (one) => one !== null && one !== document.body &&
+            (['auto', 'scroll', 'hidden'].includes(getComputedStyle(one).overflowX) || scrolls(one.parentElement))
+          return [...document.body.querySelectorAll('*')]
+            .filter((one) => one.getBoundingClientRect().right > innerWidth && !scrolls(one.parentElement))
+            .map((one) => one.outerHTML.slice(0, 60))
+        }""")
+    )
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_work_fits_a_phone(open_page: Open, learner: Learner, kind: str) -> None:
+    run = learner.create_run("a run whose name is rather long for a phone", budget=5000.0)
+    learner.ask(run, ask(kind))
+    page = open_page(f"/work?run={run}", role="admin", size=PHONE)
+    wait_for_heading(page, ask(kind)["question"])
+    page.get_by_text("0 answers").wait_for()
+    assert too_wide(page) == []
+    for name in ("Work", "Runs", "Practice", "People"):
+        expect(page.get_by_role("link", name=name, exact=True)).to_be_in_viewport(ratio=1)
+    for name in ("Keys", "Theme"):
+        expect(page.get_by_role("button", name=name)).to_be_in_viewport(ratio=1)
+
+
+def test_runs_fit_a_phone(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("a run whose name is rather long for a phone", budget=5000.0)
+    learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
+    page = open_page(f"/work?run={run}", role="admin", size=PHONE)
+    wait_for_heading(page, ask("inspect_full")["question"])
+    page.keyboard.press("f")
+    wait_for_heading(page, ask("label_hi")["question"])
+    query = page.locator("[data-query]").get_attribute("data-query")
+    learner.report(run, [True, False, True])
+    row, chart = page.get_by_role("row").nth(1), page.get_by_role("slider").first
+    for path, there in (
+        ("/runs", row),
+        (f"/runs/{run}", chart),
+        (f"/runs/{run}/queries", row),
+        (f"/runs/{run}/queries/{query}", chart),
+        (f"/runs/{run}/ledger", row),
+        (f"/runs/{run}/gold", page.get_by_role("button", name="Mark as gold")),
+        (f"/runs/compare?run={run}", chart),
+    ):
+        page.goto(path)
+        there.wait_for()
+        assert too_wide(page) == [], path
+
+
+def test_people_and_practice_fit_a_phone(open_page: Open) -> None:
+    page = open_page("/people", role="admin", size=PHONE)
+    person = page.get_by_role("row").nth(1).get_by_role("link")
+    person.wait_for()
+    assert too_wide(page) == [], "people"
+    person.click()
+    page.get_by_role("heading", name="Role and login").wait_for()
+    assert too_wide(page) == [], "person"
+    page.goto("/me")
+    page.get_by_role("heading", name="API tokens").wait_for()
+    assert too_wide(page) == [], "me"
+    page.goto("/practice")
+    page.get_by_role("heading", name="Practice").wait_for()
+    assert too_wide(page) == [], "practice"
+    page.keyboard.press("Enter")
+    wait_for_heading(page, "Was the whole task accomplished?")
+    assert too_wide(page) == [], "practice query"
+    page.keyboard.press("f")
+    wait_for_heading(page, "Not right")
+    assert too_wide(page) == [], "feedback"
