@@ -240,9 +240,7 @@ def test_what_does_not_succeed_is_sent_only_after_a_question(
     assert learner.answer_of(query)["segments"] == [*SEGMENTS[:4], {"subgoal": "north", "actions": ["up"] * 3}]
 
 
-def test_a_move_gets_a_key_of_its_own_but_none_that_is_in_use(
-    open_page: Open, learner: Learner, stage: Stage
-) -> None:
+def test_a_move_gets_a_key_of_its_own_but_none_that_is_in_use(open_page: Open, learner: Learner, stage: Stage) -> None:
     run = learner.create_run("own move keys")
     [query] = learner.ask(run, ask())
     stage(learner.served, query)
