@@ -3,6 +3,7 @@ import { flushSync, mount, unmount } from 'svelte';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { api } from '../api/client';
 import type { Costs, Run, RunList as Runs } from '../api/types';
+import LiveMark from './LiveMark.svelte';
 import RunList from './RunList.svelte';
 import Tiles from './Tiles.svelte';
 
@@ -45,4 +46,33 @@ describe('one thing is not counted as many', () => {
     }
     expect(text()).not.toContain('1 units');
   });
+});
+
+describe('the live mark', () => {
+  let mark: Record<string, unknown> | undefined;
+  afterEach(async () => {
+    if (mark) await unmount(mark);
+  });
+
+  function shown(state: Run['state'], isLive: boolean): string {
+    mark = mount(LiveMark, { target: document.body, props: { state, isLive } });
+    flushSync();
+    return document.body.textContent.trim();
+  }
+
+  it.each([
+    ['running', true, '● live'],
+    ['running', false, '○ reconnecting'],
+    ['paused', true, '● live'],
+    ['paused', false, '○ reconnecting'],
+  ] as const)('a run that is %s says whether its changes arrive (%s)', (state, isLive, words) => {
+    expect(shown(state, isLive)).toBe(words);
+  });
+
+  it.each([true, false])(
+    'a finished run is not called live, because nothing changes any more (%s)',
+    (isLive) => {
+      expect(shown('finished', isLive)).toBe('');
+    },
+  );
 });
