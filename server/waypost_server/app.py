@@ -5,7 +5,7 @@ import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
 
-from fastapi import APIRouter, FastAPI
+from fastapi import FastAPI
 from starlette.middleware.gzip import GZipMiddleware
 
 from waypost_server.answers import routes as answers
@@ -40,7 +40,8 @@ from waypost_server.webhooks.courier import delivering
 
 API = "/api/v1"
 GZIP_BYTES = 8_192  # smaller responses are not compressed
-ROUTED = (runs, queries, leases, answers, play, watch, event_streams, frames, users, sessions, gold, practice)
+# Routes are tried in this order, so those that are called most come first.
+ROUTED = (answers, leases, queries, runs, play, watch, event_streams, frames, users, sessions, gold, practice, webhooks)
 
 log = logging.getLogger("waypost")
 
@@ -58,11 +59,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         webhooks=webhooks.sent,
         lifespan=lambda app: _lifespan(app, chosen),
     )
-    api = APIRouter(prefix=API)
     for module in ROUTED:
-        api.include_router(module.router)
-    api.include_router(webhooks.router)
-    app.include_router(api)
+        app.include_router(module.router, prefix=API)
     app.include_router(system.router)
     problems.install(app)
     description.install(app, {operation: rule.words for operation, rule in ACCESS.items()})

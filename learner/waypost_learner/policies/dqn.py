@@ -35,6 +35,7 @@ class DqnSpec:
     update_every: int = 4  # steps under this Q-function
     discount: float = 0.9  # gamma
     ahead: int = 1  # steps whose rewards are summed up before the value of the state after them (n-step returns)
+    terminal: Literal["subgoal", "episode"] = "subgoal"  # whose end is terminal in a subgoal's experience (`Returns`)
     target_every: int = 100  # updates
     capacity: int = 100_000  # transitions
     least: int = 200  # transitions in the buffer before the first update
@@ -53,7 +54,7 @@ class DqnSpec:
     @property
     def returns(self) -> Returns:
         """How rewards are summed up."""
-        return Returns(self.discount, self.ahead)
+        return Returns(self.discount, self.ahead, self.terminal)
 
 
 class QFunction:

@@ -64,6 +64,7 @@ PAPER = Preset(
             optimizer="rmsprop",
             batch=128,
             discount=0.99,
+            terminal="episode",
             target_every=500,  # 2,000 steps, as an update comes every fourth
             beta_updates=125_000,
             capacity=500_000,

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from waypost.trajectory import Observation, Outcome, Segment, Trajectory
 from waypost_learner.rollout.policy_keys import PolicyKey
@@ -54,6 +55,9 @@ class Returns:
 
     discount: float  # gamma
     ahead: int = 1
+    # Of a subgoal's experience: whose end is terminal. "episode" is what the authors' code for Montezuma's Revenge does:
+    # a reached subgoal is rewarded but goes on in the state after it, and one that runs out of time has not failed.
+    terminal: Literal["subgoal", "episode"] = "subgoal"
 
 
 def experience_of(key: PolicyKey, trajectory: Trajectory, pseudo: PseudoReward, returns: Returns) -> Experience:
@@ -65,11 +69,12 @@ def experience_of(key: PolicyKey, trajectory: Trajectory, pseudo: PseudoReward, 
 
 
 def of_subgoal(segment: Segment, pseudo: PseudoReward, returns: Returns) -> Experience:
-    """Return the transitions (s, a, r~, s~) of a segment, for Q_g. The end of the subgoal or episode is terminal."""
+    """Return the transitions (s, a, r~, s~) of a segment, for Q_g; `returns.terminal` says which ends are terminal."""
     rewards = [pseudo.step] * len(segment.actions)
-    if segment.outcome is not None:
+    ends = segment.final or (segment.outcome is not None and returns.terminal == "subgoal")
+    if segment.outcome == "reached" or (segment.outcome == "failed" and ends):
         rewards[-1] = getattr(pseudo, segment.outcome)
-    experience = _experience(segment, rewards, segment.outcome is not None or segment.final, returns)
+    experience = _experience(segment, rewards, ends, returns)
     return replace(experience, outcome=segment.outcome)
 
 

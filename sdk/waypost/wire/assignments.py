@@ -6,12 +6,13 @@ from pydantic import Field
 
 from waypost.wire.answers import Answer
 from waypost.wire.queries import Query
-from waypost.wire.runs import Run
+from waypost.wire.runs import Vocabulary
 from waypost.wire.system import Problem
-from waypost.wire.words import Kind, Message, Note
+from waypost.wire.words import Kind, Message, Name, Note
 
 __all__ = [
     "AnswerPost",
+    "AssignedRun",
     "Assignment",
     "AssignmentList",
     "Lease",
@@ -66,13 +67,21 @@ class Price(Message):
     per_segment: float = Field(description="The price of each segment of a demonstration, in units.")
 
 
+class AssignedRun(Message):
+    """The run of an assignment, as far as answering needs it; `GET /runs/{id}` has the rest."""
+
+    id: str
+    name: Name
+    vocabulary: Vocabulary
+
+
 class Assignment(Message):
     """One query leased to one annotator, sent by the server. To answer, send `token` before the lease expires."""
 
     id: int
     token: str = Field(description="The secret that proves the lease in every call about this assignment.")
     query: Query
-    run: Run
+    run: AssignedRun
     price: Price = Field(description="The price of the answer.")
     leased_at: float = Field(description="When the lease began, in seconds since the epoch.")
     expires_at: float = Field(description="When the lease expires without a renewal, in seconds since the epoch.")

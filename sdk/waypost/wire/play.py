@@ -2,10 +2,10 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field, JsonValue
+from pydantic import Field
 
 from waypost.wire.answers import DemoSegment
-from waypost.wire.words import FrameHash, Message
+from waypost.wire.words import FrameHash, Json, Message
 
 __all__ = [
     "PlayHello",
@@ -56,7 +56,7 @@ class PlayStates(Message):
     type: Literal["states"]
     number: int = Field(ge=0, le=2**53 - 1, description="The number of the message that this one replies to.")
     known: int = Field(ge=0, le=10_001, description="The number of states before `states`.")
-    states: list[JsonValue] = Field(
+    states: list[Json] = Field(
         max_length=10_001,
         description="The following states up to the end of the episode, as JSON views of the domain.",
     )

@@ -2,10 +2,10 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field, JsonValue
+from pydantic import Field
 
 from waypost.wire.answers import Answer
-from waypost.wire.words import FrameHash, Message, Name, QueryState
+from waypost.wire.words import FrameHash, Json, Message, Name, QueryState
 
 __all__ = [
     "AnswerPage",
@@ -29,7 +29,7 @@ class Segment(Message):
     """One segment (s_h, g_h, tau_h) of the learner's trajectory."""
 
     subgoal: Name | None = Field(description="The learner's subgoal; null for a flat policy.")
-    states: list[JsonValue] = Field(max_length=10_000, description="s_1 .. s_{H+1}, as JSON views of the domain.")
+    states: list[Json] = Field(max_length=10_000, description="s_1 .. s_{H+1}, as JSON views of the domain.")
     actions: list[Name] = Field(max_length=10_000, description="a_1 .. a_H, one fewer than the states.")
     frames: list[FrameHash] = Field(
         default_factory=list,
@@ -45,7 +45,7 @@ class AskBase(Message):
     episode: int = Field(ge=0, le=2**31 - 1, description="The number of the episode in the run, from 0.")
     ordinal: int = Field(ge=0, le=2**31 - 1, description="The number of the query in the episode, from 0.")
     question: str = Field(max_length=500, description="The query in words, for people.")
-    instance: JsonValue = Field(description="The environment instance, as a JSON view of the domain.")
+    instance: Json = Field(description="The environment instance, as a JSON view of the domain.")
     context: list[Segment] = Field(
         default_factory=list,
         max_length=1_000,
@@ -61,7 +61,7 @@ class AskHierDemo(AskBase):
     """HierDemo(s): carry out the task from state s, and return the hierarchical trajectory (or a flat one)."""
 
     kind: Literal["hier_demo"]
-    state: JsonValue = Field(description="s, the first state of the demonstration.")
+    state: Json = Field(description="s, the first state of the demonstration.")
     flat: bool = Field(default=False, description="Whether to return only actions: one segment without a subgoal.")
     max_segments: int = Field(ge=1, le=10_000, description="H_HI, the largest number of segments.")
     max_actions: int = Field(ge=1, le=10_000, description="H_FULL, the largest number of actions in all segments.")

@@ -2,9 +2,9 @@
 
 from typing import Literal
 
-from pydantic import Field, JsonValue
+from pydantic import Field
 
-from waypost.wire.words import GoldRate, Kind, Message, Name, RunState, Units
+from waypost.wire.words import GoldRate, Json, Kind, Message, Name, RunState, Units
 
 __all__ = [
     "Attempt",
@@ -54,7 +54,7 @@ class RunCreate(Message):
     algorithm: Name
     seed: int = Field(ge=0, le=2**63 - 1)
     vocabulary: Vocabulary
-    config: dict[str, JsonValue] = Field(default_factory=dict, description="All values that determine the run.")
+    config: dict[str, Json] = Field(default_factory=dict, description="All values that determine the run.")
     prices: Prices = Field(default_factory=Prices)
     budget: Units | None = Field(
         default=None, description="The highest total cost of the run, in units; null for no limit."
@@ -74,7 +74,7 @@ class RunPatch(Message):
         le=1_000,
         description="Queries of a run with a higher priority are handed out first.",
     )
-    result: dict[str, JsonValue] | None = Field(default=None, description="The learner's report at the end of the run.")
+    result: dict[str, Json] | None = Field(default=None, description="The learner's report at the end of the run.")
     gold_rate: GoldRate | None = None
 
 
@@ -87,7 +87,7 @@ class Run(Message):
     seed: int
     state: RunState
     vocabulary: Vocabulary
-    config: dict[str, JsonValue] = Field(description="All values that determine the run.")
+    config: dict[str, Json] = Field(description="All values that determine the run.")
     prices: Prices
     budget: float | None = Field(description="The highest total cost of the run, in units; null for no limit.")
     reserved: float = Field(description="The units reserved for unanswered queries.")
@@ -100,7 +100,7 @@ class Run(Message):
     )
     open_queries: int = Field(description="The number of unanswered queries.")
     gold_rate: float = Field(description="The share of gold queries among an annotator's queries, 0 to 0.5.")
-    result: dict[str, JsonValue] | None = Field(description="The learner's report at the end of the run.")
+    result: dict[str, Json] | None = Field(description="The learner's report at the end of the run.")
     created_at: float = Field(description="When the run was created, in seconds since the epoch.")
     finished_at: float | None = Field(description="When the run finished, in seconds since the epoch.")
 
@@ -222,4 +222,4 @@ class Event(Message):
     run: str = Field(description="The id of the run.")
     event: Literal["asked", "answered", "retracted", "used", "cancelled", "episode", "run"]
     at: float = Field(description="When it happened, in seconds since the epoch.")
-    data: dict[str, JsonValue]
+    data: dict[str, Json]

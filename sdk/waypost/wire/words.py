@@ -2,12 +2,13 @@
 
 from typing import Annotated, Literal, get_args
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, SerializeAsAny
 
 __all__ = [
     "KINDS",
     "FrameHash",
     "GoldRate",
+    "Json",
     "Kind",
     "Message",
     "Name",
@@ -25,6 +26,9 @@ Verdict = Literal["pass", "fail"]
 RunState = Literal["running", "paused", "finished"]
 QueryState = Literal["open", "leased", "answered", "cancelled"]
 Role = Literal["admin", "learner", "annotator", "viewer"]
+
+Json = Annotated[JsonValue, SerializeAsAny()]
+"""Any JSON value, serialized as it is. Otherwise, in a union, pydantic would check each value in it again, in Python."""
 
 Name = Annotated[str, Field(min_length=1, max_length=100, pattern=r"^[^\x00-\x1f\x7f]+$")]
 Note = Annotated[str, Field(max_length=500, pattern=r"^[^\x00]*$")]

@@ -38,7 +38,7 @@ class Following:
 def lease(tx: Tx, request: LeaseRequest) -> Following:
     """Lease the next query in the transaction of the answer. What fails is undone; the answer stays."""
     try:
-        with tx.conn.begin_nested():
+        with tx.part():
             return Following(leases.lease(tx, request))
     except Exception as error:
         if isinstance(error, DBAPIError) and error.connection_invalidated:

@@ -1,13 +1,12 @@
 """Retraction: an annotator takes back an answer that the learner has not used."""
 
-from typing import Any
-
-from sqlalchemy import Row, select, update
+from sqlalchemy import select, update
 
 from waypost import wire
 from waypost.prices import Cost, to_units
 from waypost_server import errors
 from waypost_server.answers.service import ANSWER_OF, LOCK_QUERY
+from waypost_server.db.prepared import Record
 from waypost_server.db.tables import IS_LIVE, assignments
 from waypost_server.db.tables import ledger as ledger_table
 from waypost_server.db.tables import queries as query_table
@@ -36,8 +35,8 @@ def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Se
     """
     found = find(tx, assignment, user, body.token)
     run = runs.lock(tx, found.run)
-    query = tx.conn.execute(LOCK_QUERY, {"query": found.query}).one()
-    given = tx.conn.execute(ANSWER_OF, {"assignment": assignment}).one_or_none()
+    query = LOCK_QUERY.one(tx.conn, {"query": found.query})
+    given = ANSWER_OF.first(tx.conn, {"assignment": assignment})
     if given is None or given.revision is None:
         raise errors.LeaseEnded("This assignment has no answer that counts.")
     if query.answer_id != given.id:
@@ -62,7 +61,7 @@ def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Se
     return view(tx, grant(tx, query.id, user, settings.lease_seconds, tab=body.tab))
 
 
-def _refund(tx: Tx, run: Row[Any], query: Row[Any], given: Row[Any]) -> None:
+def _refund(tx: Tx, run: Record, query: Record, given: Record) -> None:
     of_answer = (ledger_table.c.answer_id == given.id, ledger_table.c.entry == "charge")
     charged = tx.conn.execute(select(ledger_table).where(*of_answer)).one()
     cost = Cost(charged.units, charged.lo_units)

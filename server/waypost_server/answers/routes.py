@@ -10,13 +10,13 @@ from waypost_server.answers import following, retraction
 from waypost_server.answers import service as answers
 from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
-from waypost_server.http.jsonbody import JsonRoute
+from waypost_server.http.hot import HotRoute
 from waypost_server.http.parameters import RowPath
 from waypost_server.http.problems import refusals
 from waypost_server.leases.request import LeaseRequest
 from waypost_server.leases.routes import NO_LIVE_LEASE
 
-router = APIRouter(prefix="/assignments", tags=["assignments"], route_class=JsonRoute)
+router = APIRouter(prefix="/assignments", tags=["assignments"], route_class=HotRoute)
 
 Key = Annotated[
     str | None,

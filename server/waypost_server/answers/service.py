@@ -5,9 +5,8 @@ returned, not raised, because an exception would roll back the transaction.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
-from sqlalchemy import Row, bindparam, select, update
+from sqlalchemy import bindparam, select, update
 
 from waypost import prices as pricing
 from waypost import wire
@@ -16,6 +15,7 @@ from waypost_server import errors
 from waypost_server.answers import following
 from waypost_server.answers.following import Following
 from waypost_server.db import canonical
+from waypost_server.db.prepared import Prepared, Record
 from waypost_server.db.tables import answers, assignments
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.transaction import UPSERTS, Tx
@@ -62,29 +62,32 @@ class Case:
     """An assignment with its run and query, both locked, and the canonical content of the answer."""
 
     assignment: OwnAssignment
-    run: Row[Any]
-    query: Row[Any]
+    run: Record
+    query: Record
     ask: wire.Ask
     text: str
     digest: str
 
 
-LOCK_QUERY = select(query_table).where(query_table.c.id == bindparam("query")).with_for_update()
-ANSWER_OF = select(answers).where(answers.c.assignment_id == bindparam("assignment"))
+LOCK_QUERY = Prepared(select(query_table).where(query_table.c.id == bindparam("query")).with_for_update())
+ANSWER_OF = Prepared(select(answers).where(answers.c.assignment_id == bindparam("assignment")))
 # Answers of two runs lock different rows, so two of them can come here with the same Idempotency-Key. The second waits
 # until the first is committed or undone.
-_INSERT = {
-    name: insert(answers)
-    .on_conflict_do_nothing(index_elements=[answers.c.user_id, answers.c.idempotency_key])
-    .returning(answers)
-    for name, insert in UPSERTS.items()
-}
-_END = (
+_INSERT = Prepared(
+    {
+        name: insert(answers)
+        .on_conflict_do_nothing(index_elements=[answers.c.user_id, answers.c.idempotency_key])
+        .returning(answers)
+        for name, insert in UPSERTS.items()
+    },
+    [column.name for column in answers.columns if not column.primary_key],
+)
+_END = Prepared(
     update(assignments)
     .where(assignments.c.id == bindparam("assignment"))
     .values(state="answered", ended_at=bindparam("now"))
 )
-_CLOSE = (
+_CLOSE = Prepared(
     update(query_table)
     .where(query_table.c.id == bindparam("query"))
     .values(state="answered", answer_id=bindparam("answer"))
@@ -103,10 +106,10 @@ def answer(tx: Tx, post: Post, wanted: LeaseRequest | None) -> Outcome:
     """
     case = _open(tx, post)
     _check_key(tx, post, case)
-    earlier = tx.conn.execute(ANSWER_OF, {"assignment": post.assignment}).one_or_none()
+    earlier = ANSWER_OF.first(tx.conn, {"assignment": post.assignment})
     if earlier is not None:
         return _repeat(tx, case, earlier, wanted)
-    names = checks.Names.of(wire.Vocabulary.model_validate_json(case.run.vocabulary))
+    names = checks.Names.of(runs.vocabulary_of(case.run.vocabulary))
     checks.check_answer(case.ask, post.answer, names, ["body", "answer"])
     try:
         check_live(case.assignment, tx.now)
@@ -120,7 +123,7 @@ def answer(tx: Tx, post: Post, wanted: LeaseRequest | None) -> Outcome:
 def _open(tx: Tx, post: Post) -> Case:
     assignment = find(tx, post.assignment, post.user, post.token)
     run = runs.lock(tx, assignment.run)
-    query = tx.conn.execute(LOCK_QUERY, {"query": assignment.query}).one()
+    query = LOCK_QUERY.one(tx.conn, {"query": assignment.query})
     if not tx.one_writer:
         assignment = find(tx, post.assignment, post.user, post.token)
     text = canonical.text(post.answer.model_dump(mode="json"))
@@ -141,7 +144,7 @@ def _key_reused() -> errors.KeyReused:
     return errors.KeyReused("This Idempotency-Key came before with another answer; use a new one.")
 
 
-def _repeat(tx: Tx, case: Case, earlier: Row[Any], wanted: LeaseRequest | None) -> Outcome:
+def _repeat(tx: Tx, case: Case, earlier: Record, wanted: LeaseRequest | None) -> Outcome:
     """Return the receipt of an answer that was sent before with the same content."""
     if earlier.revision is None:
         raise errors.LeaseExpired("The lease had expired when this arrived; the query is back in the queue.")
@@ -159,7 +162,7 @@ def _next(tx: Tx, wanted: LeaseRequest | None) -> Following:
 
 def _accept(tx: Tx, post: Post, case: Case, wanted: LeaseRequest | None) -> wire.Receipt:
     """Store and charge the answer, and close the query."""
-    cost = pricing.cost(post.answer, wire.Prices.model_validate_json(case.run.prices))
+    cost = pricing.cost(post.answer, runs.prices_of(case.run.prices))
     stored = _store(tx, post, case, case.query.revision, cost)
     if case.run.gold_of is not None:
         schedule.score(tx, case.query.id, post.answer)
@@ -175,8 +178,8 @@ def _accept(tx: Tx, post: Post, case: Case, wanted: LeaseRequest | None) -> wire
             stored.active_seconds,
         )
         ledger.charge(tx, entry, case.query.reserve)
-    tx.conn.execute(_END, {"assignment": case.assignment.id, "now": tx.now})
-    tx.conn.execute(_CLOSE, {"query": case.query.id, "answer": stored.id})
+    _END.run(tx.conn, {"assignment": case.assignment.id, "now": tx.now})
+    _CLOSE.run(tx.conn, {"query": case.query.id, "answer": stored.id})
     data = {
         "query": case.query.id,
         "answer": stored.id,
@@ -191,7 +194,7 @@ def _accept(tx: Tx, post: Post, case: Case, wanted: LeaseRequest | None) -> wire
     return _receipt(stored, _next(tx, wanted))
 
 
-def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> Row[Any]:
+def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> Record:
     seconds = max(tx.now - case.assignment.leased_at, 0.0)
     row = {
         "run_id": case.run.id,
@@ -207,13 +210,13 @@ def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> 
         "active_seconds": min(active_time.take(tx, post.user, post.idle_seconds), seconds),
         "created_at": tx.now,
     }
-    stored = tx.conn.execute(_INSERT[tx.conn.dialect.name], row).one_or_none()
+    stored = _INSERT.first(tx.conn, row)
     if stored is None:
         raise _key_reused()
     return stored
 
 
-def _receipt(stored: Row[Any], leased: Following) -> wire.Receipt:
+def _receipt(stored: Record, leased: Following) -> wire.Receipt:
     return wire.Receipt(
         query=stored.query_id,
         answer=stored.id,

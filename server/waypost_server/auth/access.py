@@ -14,6 +14,7 @@ from sqlalchemy import bindparam, select
 from waypost.wire import Role
 from waypost_server import errors
 from waypost_server.auth.roles import ADMINS, ANNOTATORS, ANYONE, LEARNERS, WATCHERS
+from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import users
 from waypost_server.db.transaction import Tx
 
@@ -122,7 +123,7 @@ ACCESS: Mapping[str, Access] = {
 """By operation of the API, as OpenAPI names it, or message of the play socket."""
 
 _USER = select(users.c.name, users.c.role, users.c.deactivated_at).where(users.c.id == bindparam("user"))
-_LOCKED_USER = _USER.with_for_update(read=True)
+_LOCKED_USER = Prepared(_USER.with_for_update(read=True))
 
 
 def check_role(access: Access, name: str, role: Role) -> None:
@@ -144,7 +145,7 @@ def check_still(tx: Tx, access: Access, user: int) -> Role:
         Unauthenticated: the user was deactivated.
         Forbidden: the user's role may not do this.
     """
-    row = tx.conn.execute(_LOCKED_USER, {"user": user}).one()
+    row = _LOCKED_USER.one(tx.conn, {"user": user})
     if row.deactivated_at is not None:
         raise errors.Unauthenticated("This account was deactivated.")
     role: Role = row.role

@@ -9,6 +9,7 @@ from sqlalchemy import Select, bindparam, insert, select, update
 
 from waypost.wire import Role
 from waypost_server import errors
+from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import credentials, users
 from waypost_server.db.transaction import Tx
 
@@ -65,7 +66,7 @@ def issue(tx: Tx, user: int, kind: CredentialKind, label: str = "", seconds: flo
     return Secret(row.id, user, secret, expires_at)
 
 
-_FIND = (
+_FIND = Prepared(
     select(users.c.id, users.c.name, users.c.role, credentials.c.id.label("credential"))
     .add_columns(credentials.c.expires_at, credentials.c.last_used_at)
     .join(credentials, credentials.c.user_id == users.c.id)
@@ -80,7 +81,7 @@ _FIND = (
 
 def find(tx: Tx, secret_hash: str, kind: CredentialKind) -> Owner | None:
     """Return the owner of a secret by its hash, or None if the secret is unknown, expired or revoked."""
-    row = tx.conn.execute(_FIND, {"hash": secret_hash, "kind": kind}).one_or_none()
+    row = _FIND.first(tx.conn, {"hash": secret_hash, "kind": kind})
     if row is None or (row.expires_at is not None and row.expires_at <= tx.now):
         return None
     is_stale = row.last_used_at is None or row.last_used_at <= tx.now - LAST_USE_SECONDS

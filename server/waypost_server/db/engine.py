@@ -15,6 +15,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
 
 from waypost_server import errors
 from waypost_server.db import schema
+from waypost_server.db.prepared import run_sql
 from waypost_server.db.transaction import Tx
 from waypost_server.db.wakeups import Topics
 from waypost_server.db.writer import CommittingThreads, GroupCommit, Writer
@@ -150,6 +151,8 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
         if writes:
             cursor.execute("PRAGMA journal_mode = WAL")
             cursor.execute("PRAGMA synchronous = FULL")
+            # What a savepoint would undo is kept in memory, not in a file that is created for each transaction.
+            cursor.execute("PRAGMA temp_store = MEMORY")
         else:
             # Only the writing connection checkpoints; readers neither write nor truncate the log.
             cursor.execute("PRAGMA query_only = ON")
@@ -158,7 +161,7 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
 
     @event.listens_for(engine, "begin")
     def begun(conn: Connection) -> None:
-        conn.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+        run_sql(conn, "BEGIN IMMEDIATE" if writes else "BEGIN")
 
     return engine
 

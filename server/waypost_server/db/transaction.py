@@ -1,6 +1,7 @@
 """A transaction: the connection, the time, and the topics to wake after the commit. Every SQL statement runs in one."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -9,9 +10,10 @@ from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.sql import select
 
 from waypost_server.db.clock import clock
+from waypost_server.db.prepared import Prepared, run_sql
 from waypost_server.db.wakeups import Topics
 
-_NOW = select(clock())
+_NOW = Prepared(select(clock().label("now")))
 
 UPSERTS: dict[str, Callable[[Table], Any]] = {"sqlite": sqlite.insert, "postgresql": postgresql.insert}
 """By dialect: an INSERT with `on_conflict_do_...`."""
@@ -29,13 +31,26 @@ class Tx:
     def now(self) -> float:
         """The database's time in seconds since the epoch, read once per transaction."""
         if self._now is None:
-            self._now = float(self.conn.execute(_NOW).scalar_one())
+            self._now = float(_NOW.value(self.conn, {}))
         return self._now
 
     @property
     def one_writer(self) -> bool:
         """Whether transactions run one after the other, so that rows need no locks (SQLite)."""
         return self.conn.dialect.name == "sqlite"
+
+    @contextmanager
+    def part(self) -> Iterator[None]:
+        """Run a part of the transaction. If it fails, only the part is undone."""
+        run_sql(self.conn, "SAVEPOINT part")
+        try:
+            yield
+        except BaseException:
+            if not self.conn.invalidated:
+                run_sql(self.conn, "ROLLBACK TO SAVEPOINT part")
+                run_sql(self.conn, "RELEASE SAVEPOINT part")
+            raise
+        run_sql(self.conn, "RELEASE SAVEPOINT part")
 
     def upsert(self, table: Table) -> Any:
         """Return an INSERT with `on_conflict_do_update` and `on_conflict_do_nothing`."""

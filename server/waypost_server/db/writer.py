@@ -15,6 +15,7 @@ from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import DBAPIError, OperationalError
 
 from waypost_server import errors
+from waypost_server.db.prepared import run_sql
 from waypost_server.db.wakeups import Topics
 
 T = TypeVar("T")
@@ -87,6 +88,7 @@ class GroupCommit:
         self._places = Places()
         self._jobs: SimpleQueue[Job | None] = SimpleQueue()
         self._closing = False
+        self._conn: Connection | None = None
         self._thread = threading.Thread(target=self._loop, name="waypost-write", daemon=True)
         self._thread.start()
 
@@ -114,6 +116,7 @@ class GroupCommit:
         while not self._closing:
             if batch := self._take(LARGEST_BATCH, wait=True):
                 self._run(batch)
+        self._disconnect()
 
     def _take(self, most: int, *, wait: bool) -> list[Job]:
         """Take the next jobs out of the queue. With `wait`, wait until there is one."""
@@ -148,27 +151,35 @@ class GroupCommit:
             try:
                 self._commit(conn, group)
             except DBAPIError as error:
+                self._disconnect()
                 if len(group) > 1:
                     groups.extend([job] for job in group)
                 else:
                     _fail(group, error)
             except Exception as error:
+                self._disconnect()
                 _fail(group, error)
 
     def _begin(self) -> Connection:
-        conn = self._engine.connect()
         try:
-            conn.begin()
+            if self._conn is None:
+                self._conn = self._engine.connect()
+            self._conn.begin()
         except BaseException:
-            conn.close()
+            self._disconnect()
             raise
-        return conn
+        return self._conn
 
-    def _commit(self, begun: Connection, group: list[Job]) -> None:
+    def _disconnect(self) -> None:
+        """Undo what was not committed. The next batch takes a connection from the pool again."""
+        if self._conn is not None:
+            self._conn.close()
+            self._conn = None
+
+    def _commit(self, conn: Connection, group: list[Job]) -> None:
         topics: Topics = set()
-        with begun as conn:
-            outcomes = [_in_savepoint(conn, job.work, topics) for job in group]
-            conn.commit()
+        outcomes = [_in_savepoint(conn, job.work, topics) for job in group]
+        conn.commit()
         # The group is on disk from here on.
         if topics:
             self._committed(topics)
@@ -187,15 +198,16 @@ def _fail(jobs: Iterable[Job], error: Exception) -> None:
 def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:
     """Run one job. A refusal changes nothing in the store; a failing database fails the whole batch."""
     woken: Topics = set()
-    savepoint = conn.begin_nested()
+    run_sql(conn, "SAVEPOINT job")
     try:
         result = work(conn, woken)
-        savepoint.commit()
     except OperationalError:
         raise
     except Exception as error:
-        savepoint.rollback()
+        run_sql(conn, "ROLLBACK TO SAVEPOINT job")
+        run_sql(conn, "RELEASE SAVEPOINT job")
         return None, error
+    run_sql(conn, "RELEASE SAVEPOINT job")
     topics |= woken
     return result, None
 

@@ -13,6 +13,7 @@ from sqlalchemy import ColumnElement, Row, case, func, insert, select, update
 from waypost import wire
 from waypost_server import errors
 from waypost_server.db import canonical
+from waypost_server.db.prepared import Record
 from waypost_server.db.tables import answers, gold, gold_showings, users
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as run_table
@@ -49,7 +50,7 @@ def add(tx: Tx, run: str, wanted: wire.GoldPost, user: int) -> wire.GoldList:
         NotFound, NotAnswered, Unprocessable: a query is not of this run, has no answer, or cannot be gold.
     """
     row = runs.lock_own(tx, run, user)
-    names = checks.Names.of(wire.Vocabulary.model_validate_json(row.vocabulary))
+    names = checks.Names.of(runs.vocabulary_of(row.vocabulary))
     items = [_answered(tx, run, query) for query in wanted.answered]
     for place, one in enumerate(wanted.known):
         at: list[str | int] = ["body", "known", place]
@@ -76,10 +77,10 @@ def _answered(tx: Tx, run: str, query: int) -> Item:
     return Item(queries.ASK.validate_json(found.ask), known, query, found.user_id)
 
 
-def _ensure_shadow(tx: Tx, row: Row[Any]) -> None:
+def _ensure_shadow(tx: Tx, row: Record) -> None:
     if shadow_of(tx, row.id) is not None:
         return
-    copied = {name: row._mapping[name] for name in _COPIED}
+    copied = {name: getattr(row, name) for name in _COPIED}
     # Paused, so that only `schedule` hands out its queries.
     state = {"state": "finished", "finished_at": tx.now} if row.state == "finished" else {"state": "paused"}
     tx.conn.execute(

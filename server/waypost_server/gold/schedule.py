@@ -16,6 +16,7 @@ from sqlalchemy import Row, bindparam, exists, func, insert, select, update
 
 from waypost import wire
 from waypost_server.db import canonical, wakeups
+from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import gold, gold_showings, gold_streams, skips
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as run_table
@@ -29,7 +30,7 @@ _ORDER = (gold.c.id * 7_919 + bindparam("user") * 104_729) % 65_537
 
 _own = run_table.alias("own")
 _shadow = run_table.alias("shadow")
-_DUE = (
+_DUE = Prepared(
     select(_own.c.id.label("run"), _own.c.gold_rate, _shadow.c.id.label("shadow"), query_table.c.episode)
     .add_columns(query_table.c.ordinal, query_table.c.priority, query_table.c.created_at)
     .join(_own, _own.c.id == query_table.c.run_id)
@@ -79,7 +80,7 @@ class Position:
 
 def replace_with_gold(tx: Tx, user: int, kinds: Sequence[wire.Kind] | None, query: int) -> int:
     """Return the query to lease when `query` is next: a gold query if one is due for this annotator, else `query`."""
-    due = tx.conn.execute(_DUE, {"query": query}).one_or_none()
+    due = _DUE.first(tx.conn, {"query": query})
     if due is None or not _next_position(tx, user, due.run).is_gold(due.gold_rate):
         return query
     runs.lock(tx, due.shadow)

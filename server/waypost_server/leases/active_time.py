@@ -9,11 +9,12 @@ from typing import Any
 
 from sqlalchemy import bindparam, exists, select, update
 
+from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, active_time, assignments
 from waypost_server.db.transaction import UPSERTS, Tx
 
-_FIND = select(active_time).where(active_time.c.user_id == bindparam("user")).with_for_update()
-_RECORD = (
+_FIND = Prepared(select(active_time).where(active_time.c.user_id == bindparam("user")).with_for_update())
+_RECORD = Prepared(
     update(active_time)
     .where(active_time.c.user_id == bindparam("user"))
     .values(active_seconds=bindparam("active"), signalled_at=bindparam("now"))
@@ -27,12 +28,12 @@ def _start(insert: Any) -> Any:
     return new.on_conflict_do_update(index_elements=["user_id"], set_=started, where=~holding)
 
 
-_START = {name: _start(insert) for name, insert in UPSERTS.items()}
+_START = Prepared({name: _start(insert) for name, insert in UPSERTS.items()})
 
 
 def start(tx: Tx, user: int) -> None:
     """Start the clock of an annotator who gets a query and holds no other."""
-    tx.conn.execute(_START[tx.conn.dialect.name], {"user": user, "now": tx.now})
+    _START.run(tx.conn, {"user": user, "now": tx.now})
 
 
 def signal(tx: Tx, user: int, idle_seconds: float) -> None:
@@ -48,11 +49,11 @@ def take(tx: Tx, user: int, idle_seconds: float) -> float:
 
 
 def _active(tx: Tx, user: int, idle_seconds: float) -> float:
-    row = tx.conn.execute(_FIND, {"user": user}).one_or_none()
+    row = _FIND.first(tx.conn, {"user": user})
     if row is None:  # the lease was granted before this table existed
         return 0.0
     return float(row.active_seconds + min(max(tx.now - row.signalled_at, 0.0), idle_seconds))
 
 
 def _record(tx: Tx, user: int, active: float) -> None:
-    tx.conn.execute(_RECORD, {"user": user, "active": active, "now": tx.now})
+    _RECORD.run(tx.conn, {"user": user, "active": active, "now": tx.now})

@@ -3,13 +3,15 @@
 import secrets
 from dataclasses import dataclass
 
-from sqlalchemy import bindparam, select
+from sqlalchemy import bindparam, func, select
 
 from waypost import prices as pricing
 from waypost import wire
 from waypost_server import errors
-from waypost_server.db.tables import IS_LIVE, assignments
+from waypost_server.db.prepared import Prepared
+from waypost_server.db.tables import IS_LIVE, assignments, users
 from waypost_server.db.tables import queries as query_table
+from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
 from waypost_server.queries import service as queries
 from waypost_server.runs import service as runs
@@ -28,9 +30,22 @@ class OwnAssignment:
     expires_at: float
 
 
-_FIND = (
+_FIND = Prepared(
     select(assignments, query_table.c.run_id)
     .join(query_table, query_table.c.id == assignments.c.query_id)
+    .where(assignments.c.id == bindparam("assignment"))
+)
+_LOCK = Prepared(select(query_table.c.id).where(query_table.c.id == bindparam("query")).with_for_update())
+_own = run_table.alias("own")
+_VIEW = Prepared(
+    select(assignments.c.id, assignments.c.token, assignments.c.leased_at, assignments.c.expires_at)
+    .add_columns(query_table.c.id.label("query"), query_table.c.priority, query_table.c.created_at, query_table.c.ask)
+    .add_columns(run_table.c.id.label("run"), run_table.c.name, run_table.c.vocabulary, run_table.c.prices)
+    .add_columns(users.c.name.label("annotator"))
+    .join(query_table, query_table.c.id == assignments.c.query_id)
+    .join(_own, _own.c.id == query_table.c.run_id)
+    .join(run_table, run_table.c.id == func.coalesce(_own.c.gold_of, _own.c.id))  # a gold query looks like the others
+    .join(users, users.c.id == assignments.c.user_id)
     .where(assignments.c.id == bindparam("assignment"))
 )
 
@@ -41,7 +56,7 @@ def find(tx: Tx, assignment: int, user: int, token: str) -> OwnAssignment:
     Raises:
         NotFound, NotYours, WrongToken: the user does not have this assignment.
     """
-    row = tx.conn.execute(_FIND, {"assignment": assignment}).one_or_none()
+    row = _FIND.first(tx.conn, {"assignment": assignment})
     if row is None:
         raise errors.NotFound(f"There is no assignment {assignment}.")
     if row.user_id != user:
@@ -60,7 +75,7 @@ def find_live(tx: Tx, assignment: int, user: int, token: str) -> OwnAssignment:
     """
     found = find(tx, assignment, user, token)
     if not tx.one_writer:
-        tx.conn.execute(select(query_table.c.id).where(query_table.c.id == found.query).with_for_update())
+        _LOCK.run(tx.conn, {"query": found.query})
         found = find(tx, assignment, user, token)
     check_live(found, tx.now)
     return found
@@ -102,16 +117,29 @@ def leased_after(tx: Tx, assignment: int) -> wire.Assignment | None:
 
 
 def view(tx: Tx, assignment: int) -> wire.Assignment:
-    """Return an assignment as its owner sees it."""
-    row = tx.conn.execute(_FIND, {"assignment": assignment}).one()
-    query = queries.view(tx, row.query_id)
-    run = runs.view(tx, query.run)
+    """Return a live assignment as its owner sees it."""
+    row = _VIEW.one(tx.conn, {"assignment": assignment})
+    ask = queries.ASK.validate_json(row.ask)
     return wire.Assignment(
         id=row.id,
         token=row.token,
-        query=query,
-        run=run,
-        price=pricing.price(query.ask, run.prices),
+        query=wire.Query(
+            id=row.query,
+            run=row.run,
+            state="leased",
+            priority=row.priority,
+            created_at=row.created_at,
+            ask=ask,
+            answer=None,
+            answer_id=None,
+            used=False,
+            annotator=row.annotator,
+            units=None,
+            seconds=None,
+            active_seconds=None,
+        ),
+        run=wire.AssignedRun(id=row.run, name=row.name, vocabulary=runs.vocabulary_of(row.vocabulary)),
+        price=pricing.price(ask, runs.prices_of(row.prices)),
         leased_at=row.leased_at,
         expires_at=row.expires_at,
         lease_seconds=row.expires_at - row.leased_at,

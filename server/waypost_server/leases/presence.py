@@ -4,29 +4,37 @@ An annotator is at work if they asked for a query recently or hold a lease. Requ
 """
 
 from collections.abc import Sequence
-from typing import Any
 
-from sqlalchemy import and_, bindparam, exists, false, func, literal, or_, select
+from sqlalchemy import and_, bindparam, exists, func, literal, or_, select
 from sqlalchemy.sql.elements import ColumnElement
 
 from waypost import wire
+from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, assignments, presence, queries, skips
-from waypost_server.db.transaction import Tx
+from waypost_server.db.transaction import UPSERTS, Tx
 
 REFRESH_SECONDS = 3.0
 
-_ROW_OF = select(presence).where(presence.c.user_id == bindparam("user"))
+_ROW_OF = Prepared(select(presence).where(presence.c.user_id == bindparam("user")))
+_ASKED = ("run_id", "kinds", "asked_at")
+_RECORD = Prepared(
+    {
+        name: (new := insert(presence)).on_conflict_do_update(
+            index_elements=["user_id"], set_={column: new.excluded[column] for column in _ASKED}
+        )
+        for name, insert in UPSERTS.items()
+    },
+    ["user_id", *_ASKED],
+)
 
 
 def record(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None) -> None:
     """Record that an annotator asks for a query; while the annotator waits, write only every `REFRESH_SECONDS`."""
     names = None if kinds is None else ",".join(sorted(kinds))
-    known = tx.conn.execute(_ROW_OF, {"user": user}).one_or_none()
+    known = _ROW_OF.first(tx.conn, {"user": user})
     if known and (known.run_id, known.kinds) == (run, names) and known.asked_at > tx.now - REFRESH_SECONDS:
         return
-    values: dict[str, Any] = {"run_id": run, "kinds": names, "asked_at": tx.now}
-    new = tx.upsert(presence).values(user_id=user, **values)
-    tx.conn.execute(new.on_conflict_do_update(index_elements=["user_id"], set_=values))
+    _RECORD.run(tx.conn, {"user_id": user, "run_id": run, "kinds": names, "asked_at": tx.now})
 
 
 # The annotator asked after `since`, or holds a lease at `now` that was requested without `defer`.
@@ -39,24 +47,19 @@ AT_WORK = or_(
         assignments.c.deferring.is_(False),
     ),
 )
-_AT_WORK = select(presence).where(AT_WORK)
-_OTHERS = select(func.count()).where(
-    AT_WORK,
-    presence.c.user_id != bindparam("user"),
-    or_(presence.c.run_id.is_(None), presence.c.run_id == func.coalesce(bindparam("run"), presence.c.run_id)),
+_OTHERS = Prepared(
+    select(func.count()).where(
+        AT_WORK,
+        presence.c.user_id != bindparam("user"),
+        or_(presence.c.run_id.is_(None), presence.c.run_id == func.coalesce(bindparam("run"), presence.c.run_id)),
+    )
 )
-
-
-def somebody_would_take(tx: Tx, seconds: float) -> ColumnElement[bool]:
-    """Return the condition that an annotator at work accepts the kind and run of a query, and did not skip it."""
-    at_work = tx.conn.execute(_AT_WORK, {"since": tx.now - seconds, "now": tx.now}).all()
-    return or_(false(), *(_takes(row) for row in at_work))
 
 
 def others(tx: Tx, user: int, run: str | None, seconds: float) -> int:
     """Return how many other annotators at work accept queries of this run, or of any run."""
     known = {"since": tx.now - seconds, "now": tx.now, "user": user, "run": run}
-    return int(tx.conn.execute(_OTHERS, known).scalar_one())
+    return int(_OTHERS.value(tx.conn, known))
 
 
 def takes() -> ColumnElement[bool]:
@@ -70,11 +73,6 @@ def takes() -> ColumnElement[bool]:
     )
 
 
-def _takes(row: Any) -> ColumnElement[bool]:
-    skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == row.user_id)
-    takes = [~skipped]
-    if row.run_id is not None:
-        takes.append(queries.c.run_id == row.run_id)
-    if row.kinds is not None:
-        takes.append(queries.c.kind.in_(row.kinds.split(",")))
-    return and_(*takes)
+def somebody_would_take() -> ColumnElement[bool]:
+    """Return the condition that an annotator at work accepts the kind and run of a query, and did not skip it."""
+    return exists().where(AT_WORK, takes())

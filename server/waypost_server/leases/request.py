@@ -48,4 +48,5 @@ class LeaseRequest:
             "now": now,
             "since": now - self.presence_seconds,
             "fresh": now - self.follow_up_seconds,
+            "before": now - self.defer,
         }

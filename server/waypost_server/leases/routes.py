@@ -6,14 +6,14 @@ from waypost import wire
 from waypost_server import errors
 from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
-from waypost_server.http.jsonbody import JsonRoute
+from waypost_server.http.hot import HotRoute
 from waypost_server.http.parameters import RowPath
 from waypost_server.http.problems import refusals
 from waypost_server.leases import assignments, waiting
 from waypost_server.leases import service as leases
 from waypost_server.leases.request import LeaseRequest
 
-router = APIRouter(prefix="/assignments", tags=["assignments"], route_class=JsonRoute)
+router = APIRouter(prefix="/assignments", tags=["assignments"], route_class=HotRoute)
 
 NO_LIVE_LEASE = (errors.NotFound, errors.NotYours, errors.WrongToken, errors.LeaseExpired, errors.LeaseEnded)
 

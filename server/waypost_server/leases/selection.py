@@ -11,6 +11,7 @@ from typing import Any
 from sqlalchemy import Select, and_, bindparam, exists, not_, or_, select
 from sqlalchemy.sql.elements import ColumnElement
 
+from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_OPEN, answers, queries, runs, skips
 from waypost_server.db.tables import presence as present
 from waypost_server.db.transaction import Tx
@@ -22,10 +23,10 @@ from waypost_server.leases.request import Kinds, LeaseRequest
 class Candidates:
     """The statements that find the next query among those that an annotator may get."""
 
-    every: Select[Any]
-    first: Select[Any]
-    follow_up: Select[Any]
-    unlocked: Select[Any]
+    some: Prepared
+    first: Prepared
+    follow_up: Prepared
+    unlocked: Prepared
 
     @classmethod
     def among(cls, offered: Select[Any]) -> "Candidates":
@@ -37,14 +38,14 @@ class Candidates:
             queries.c.priority >= bindparam("priority"),
         )
         return cls(
-            offered,
-            offered.limit(1),
-            offered.where(*last).limit(1),
-            offered.limit(1).with_for_update(skip_locked=True, of=queries),
+            Prepared(offered.limit(bindparam("most"))),
+            Prepared(offered.limit(1)),
+            Prepared(offered.where(*last).limit(1)),
+            Prepared(offered.limit(1).with_for_update(skip_locked=True, of=queries)),
         )
 
 
-_LAST_ANSWERED = (
+_LAST_ANSWERED = Prepared(
     select(queries.c.run_id, queries.c.episode)
     .join(answers, answers.c.query_id == queries.c.id)
     .join(runs, runs.c.id == queries.c.run_id)
@@ -54,7 +55,7 @@ _LAST_ANSWERED = (
 )
 _SKIPPED = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == bindparam("user"))
 # Since the query was selected, its annotator may have leased and skipped it in another request.
-_LOCK_ONE = (
+_LOCK_ONE = Prepared(
     select(queries.c.id)
     .where(queries.c.id == bindparam("query"), IS_OPEN, ~_SKIPPED)
     .with_for_update(skip_locked=True, of=queries)
@@ -64,44 +65,40 @@ _LOCK_ONE = (
 def select_next(tx: Tx, request: LeaseRequest) -> int | None:
     """Return the next query, locked, or None: a follow-up if no query has a higher priority, else the first query."""
     n_others = presence.others(tx, request.user, request.run, request.presence_seconds)
-    candidates = _candidates(tx, request, n_others > 0)
+    candidates = _candidates(request.kinds, request.run is not None, n_others > 0, request.defer > 0)
     parameters = request.parameters(tx.now)
     if request.ahead and not _leaves_enough(tx, candidates, parameters, n_others):
         return None
-    chosen = tx.conn.execute(candidates.first, parameters).one_or_none()
+    chosen = candidates.first.first(tx.conn, parameters)
     if chosen is None:
         return None
-    last = tx.conn.execute(_LAST_ANSWERED, parameters).one_or_none()
+    last = _LAST_ANSWERED.first(tx.conn, parameters)
     if last is not None:
         parameters |= {"last_run": last.run_id, "last_episode": last.episode}
         parameters |= {"run_priority": chosen.run_priority, "priority": chosen.priority}
-        chosen = tx.conn.execute(candidates.follow_up, parameters).one_or_none() or chosen
+        chosen = candidates.follow_up.first(tx.conn, parameters) or chosen
     if tx.one_writer:
         return int(chosen.id)
     # Another transaction may be leasing the same query: lock it, or the next one that is free.
-    locked = tx.conn.execute(_LOCK_ONE, {"query": chosen.id, "user": request.user}).one_or_none()
+    locked = _LOCK_ONE.first(tx.conn, {"query": chosen.id, "user": request.user})
     if locked is None:
-        locked = tx.conn.execute(candidates.unlocked, parameters).one_or_none()
+        locked = candidates.unlocked.first(tx.conn, parameters)
     return None if locked is None else int(locked.id)
 
 
 def _leaves_enough(tx: Tx, candidates: Candidates, parameters: dict[str, Any], n_others: int) -> bool:
     """Return whether there is a query for every other annotator at work, and one more."""
-    return len(tx.conn.execute(candidates.every.limit(n_others + 1), parameters).all()) > n_others
-
-
-def _candidates(tx: Tx, request: LeaseRequest, shared: bool) -> Candidates:
-    """Return the statements for the queries that an annotator may get; `shared` says that others are at work."""
-    if request.defer == 0:
-        return _without_deferring(request.kinds, request.run is not None, shared)
-    others = presence.somebody_would_take(tx, request.presence_seconds)
-    old = queries.c.created_at <= tx.now - request.defer
-    return Candidates.among(_offered(request.kinds, request.run is not None, shared).where(or_(old, not_(others))))
+    return len(candidates.some.rows(tx.conn, {**parameters, "most": n_others + 1})) > n_others
 
 
 @lru_cache(maxsize=256)
-def _without_deferring(kinds: Kinds | None, one_run: bool, shared: bool) -> Candidates:
-    return Candidates.among(_offered(kinds, one_run, shared))
+def _candidates(kinds: Kinds | None, one_run: bool, shared: bool, deferring: bool) -> Candidates:
+    """Return the statements for the queries that an annotator may get; `shared` says that others are at work."""
+    offered = _offered(kinds, one_run, shared)
+    if deferring:
+        old = queries.c.created_at <= bindparam("before")
+        offered = offered.where(or_(old, not_(presence.somebody_would_take())))
+    return Candidates.among(offered)
 
 
 def _reserved_for_another() -> ColumnElement[bool]:
@@ -126,7 +123,7 @@ def _offered(kinds: Kinds | None, one_run: bool, shared: bool) -> Select[Any]:
     if shared:
         offered = offered.where(~_reserved_for_another())
     if kinds is not None:
-        offered = offered.where(queries.c.kind.in_(kinds))
+        offered = offered.where(or_(*(queries.c.kind == kind for kind in kinds)))
     if one_run:
         offered = offered.where(queries.c.run_id == bindparam("run"))
     return offered

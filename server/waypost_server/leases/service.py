@@ -9,6 +9,7 @@ from sqlalchemy.sql.elements import ColumnElement
 from waypost import wire
 from waypost_server.auth.access import ACCESS, check_still
 from waypost_server.db import wakeups
+from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, assignments, queries, skips
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import schedule
@@ -18,9 +19,12 @@ from waypost_server.leases.request import LeaseRequest
 from waypost_server.runs import service as runs
 from waypost_server.settings import Settings
 
-_SET_LEASED = update(queries).where(queries.c.id == bindparam("query")).values(state="leased")
-_INSERT = insert(assignments).returning(assignments.c.id)
-_EXPIRED = (
+_SET_LEASED = Prepared(update(queries).where(queries.c.id == bindparam("query")).values(state="leased"))
+_INSERT = Prepared(
+    insert(assignments).returning(assignments.c.id),
+    ["query_id", "user_id", "token", "state", "deferring", "after_id", "tab", "leased_at", "expires_at"],
+)
+_EXPIRED = Prepared(
     select(queries.c.id)
     .join(assignments, assignments.c.query_id == queries.c.id)
     .where(IS_LIVE, assignments.c.expires_at <= bindparam("now"))
@@ -74,7 +78,7 @@ def grant(
     The store allows one live assignment per query (`uq_assignments_live`).
     """
     active_time.start(tx, user)
-    tx.conn.execute(_SET_LEASED, {"query": query})
+    _SET_LEASED.run(tx.conn, {"query": query})
     assignment = {
         "query_id": query,
         "user_id": user,
@@ -86,12 +90,12 @@ def grant(
         "leased_at": tx.now,
         "expires_at": tx.now + seconds,
     }
-    return int(tx.conn.execute(_INSERT, assignment).scalar_one())
+    return int(_INSERT.value(tx.conn, assignment))
 
 
 def expire(tx: Tx) -> int:
     """End the leases whose time is over and reopen their queries; return how many."""
-    ids = tx.conn.execute(_EXPIRED, {"now": tx.now}).scalars().all()
+    ids = [row.id for row in _EXPIRED.rows(tx.conn, {"now": tx.now})]
     if ids:
         _reopen(tx, ids, "expired", [assignments.c.expires_at <= tx.now])
     return len(ids)

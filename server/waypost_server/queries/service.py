@@ -161,7 +161,7 @@ def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_
     new = _new(contents, known)
     if new:
         _check_new(tx, run_row, body, new, most_open)
-        prices = wire.Prices.model_validate_json(run_row.prices)
+        prices = runs.prices_of(run_row.prices)
         reserves = [pricing.highest_cost(one.ask, prices).units for one in new]
         ledger.reserve(tx, runs.account(run_row), sum(reserves))
         ids = _insert(tx, run_row, new, body.priority, reserves)
@@ -202,7 +202,7 @@ def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, st
 def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Content], most_open: int) -> None:
     if run_row.state == "finished":
         raise errors.RunFinished("The run is finished, so it cannot ask new queries.")
-    names = checks.Names.of(wire.Vocabulary.model_validate_json(run_row.vocabulary))
+    names = checks.Names.of(runs.vocabulary_of(run_row.vocabulary))
     for one in new:
         checks.check_ask(one.ask, names, ["body", "queries", body.queries.index(one.ask)])
     frames.check_stored(tx, [one.ask for one in new])

@@ -8,13 +8,14 @@ from typing import Any
 from sqlalchemy import Text, cast, func, insert, select
 
 from waypost import wire
+from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import events
 from waypost_server.db.transaction import Tx
 
 PAGE = 500  # events read at once
 ANY = "events"  # the topic that a new event of any run wakes
 
-_INSERT = insert(events).returning(events.c.id)
+_INSERT = Prepared(insert(events).returning(events.c.id), ["run_id", "event", "data", "created_at"])
 _NEWEST = select(func.coalesce(func.max(events.c.id), 0))
 _RUNNING = select(cast(func.pg_current_snapshot(), Text))  # "xmin:xmax:xid,xid"; both selects have one snapshot
 
@@ -50,7 +51,7 @@ def add(tx: Tx, run: str, event: str, data: Mapping[str, Any]) -> int:
     """
     row = {"run_id": run, "event": event, "data": json.dumps(data), "created_at": tx.now}
     tx.wake(topic(run), ANY)
-    return int(tx.conn.execute(_INSERT, row).scalar_one())
+    return int(_INSERT.value(tx.conn, row))
 
 
 def newest(tx: Tx, run: str) -> int:

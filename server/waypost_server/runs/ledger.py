@@ -8,6 +8,7 @@ from sqlalchemy import bindparam, insert, update
 
 from waypost.prices import MICRO, Cost, to_units
 from waypost_server import errors
+from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import ledger, runs
 from waypost_server.db.transaction import Tx
 
@@ -44,7 +45,8 @@ class Entry:
 
 
 _INSERT = insert(ledger)
-_CHANGE = (
+_WRITE = Prepared(_INSERT, [column.name for column in ledger.columns if not column.primary_key])
+_CHANGE = Prepared(
     update(runs)
     .where(runs.c.id == bindparam("run"))
     .values(spent=runs.c.spent + bindparam("more_spent"), reserved=runs.c.reserved + bindparam("more_reserved"))
@@ -114,8 +116,8 @@ def _write(tx: Tx, kind: str, entry: Entry, sign: int) -> None:
         "active_seconds": sign * entry.active_seconds,
         "created_at": tx.now,
     }
-    tx.conn.execute(_INSERT, row)
+    _WRITE.run(tx.conn, row)
 
 
 def _change(tx: Tx, run: str, spent: int, reserved: int) -> None:
-    tx.conn.execute(_CHANGE, {"run": run, "more_spent": spent, "more_reserved": reserved})
+    _CHANGE.run(tx.conn, {"run": run, "more_spent": spent, "more_reserved": reserved})

@@ -3,15 +3,17 @@
 import json
 import re
 import secrets
+from functools import lru_cache
 from typing import Any
 
-from sqlalchemy import Float, Row, Select, bindparam, cast, func, insert, select, update
+from sqlalchemy import Float, Select, bindparam, cast, func, insert, or_, select, update
 
 from waypost import wire
 from waypost.prices import to_micro, to_units
 from waypost_server import errors
 from waypost_server.auth import access
 from waypost_server.db import canonical, wakeups
+from waypost_server.db.prepared import Prepared, Record
 from waypost_server.db.tables import IS_LIVE, assignments, episodes, queries, runs
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import events, ledger
@@ -34,7 +36,7 @@ _success_rate = select(func.avg(_recent.c.passed)).scalar_subquery()
 _episodes_done = select(func.count()).where(episodes.c.run_id == runs.c.id).correlate(runs).scalar_subquery()
 _open_queries = (
     select(func.count())
-    .where(queries.c.run_id == runs.c.id, queries.c.state.in_(UNANSWERED))
+    .where(queries.c.run_id == runs.c.id, or_(*(queries.c.state == state for state in UNANSWERED)))
     .correlate(runs)
     .scalar_subquery()
 )
@@ -52,7 +54,19 @@ def answers_topic(run: str) -> str:
     return f"answers:{run}"
 
 
-def of_row(row: Row[Any]) -> wire.Run:
+@lru_cache(maxsize=256)
+def vocabulary_of(stored: str) -> wire.Vocabulary:
+    """Return a stored vocabulary. Callers share it, so nobody changes it."""
+    return wire.Vocabulary.model_validate_json(stored)
+
+
+@lru_cache(maxsize=256)
+def prices_of(stored: str) -> wire.Prices:
+    """Return stored prices. Callers share them, so nobody changes them."""
+    return wire.Prices.model_validate_json(stored)
+
+
+def of_row(row: Record) -> wire.Run:
     """Return the message for a row of `RUNS`."""
     return wire.Run(
         id=row.id,
@@ -60,9 +74,9 @@ def of_row(row: Row[Any]) -> wire.Run:
         algorithm=row.algorithm,
         seed=row.seed,
         state=row.state,
-        vocabulary=wire.Vocabulary.model_validate_json(row.vocabulary),
+        vocabulary=vocabulary_of(row.vocabulary),
         config=json.loads(row.config),
-        prices=wire.Prices.model_validate_json(row.prices),
+        prices=prices_of(row.prices),
         budget=None if row.budget is None else to_units(row.budget),
         reserved=to_units(row.reserved),
         spent=to_units(row.spent),
@@ -78,19 +92,20 @@ def of_row(row: Row[Any]) -> wire.Run:
     )
 
 
-_FIND = select(runs).where(runs.c.id == bindparam("run"))
-_LOCK = _FIND.with_for_update()
-_VIEW = RUNS.where(runs.c.id == bindparam("run"))
+_OF_ID = select(runs).where(runs.c.id == bindparam("run"))
+_FIND = Prepared(_OF_ID)
+_LOCK = Prepared(_OF_ID.with_for_update())
+_VIEW = Prepared(RUNS.where(runs.c.id == bindparam("run")))
 
 
-def _one(tx: Tx, statement: Select[Any], run: str) -> Row[Any]:
-    row = tx.conn.execute(statement, {"run": run}).one_or_none() if _ID.fullmatch(run) else None
+def _one(tx: Tx, statement: Prepared, run: str) -> Record:
+    row = statement.first(tx.conn, {"run": run}) if _ID.fullmatch(run) else None
     if row is None:
         raise errors.NotFound(f"There is no run {run!r}.")
     return row
 
 
-def find(tx: Tx, run: str) -> Row[Any]:
+def find(tx: Tx, run: str) -> Record:
     """Return a run's row.
 
     Raises:
@@ -99,12 +114,12 @@ def find(tx: Tx, run: str) -> Row[Any]:
     return _one(tx, _FIND, run)
 
 
-def lock(tx: Tx, run: str) -> Row[Any]:
+def lock(tx: Tx, run: str) -> Record:
     """Return a run's row, locked, so that its account, answers and events change in one transaction at a time."""
     return _one(tx, _LOCK, run)
 
 
-def lock_own(tx: Tx, run: str, user: int) -> Row[Any]:
+def lock_own(tx: Tx, run: str, user: int) -> Record:
     """Return a run's row, locked, to a user who may change the run: its owner or an administrator.
 
     Raises:
@@ -117,7 +132,7 @@ def lock_own(tx: Tx, run: str, user: int) -> Row[Any]:
     return row
 
 
-def account(row: Row[Any]) -> Account:
+def account(row: Record) -> Account:
     """Return the account of a locked run."""
     return Account(row.id, row.budget, row.spent, row.reserved)
 
@@ -199,7 +214,7 @@ def patch(tx: Tx, run: str, wanted: wire.RunPatch, user: int) -> wire.Run:
     return view(tx, run)
 
 
-def _checked_budget(row: Row[Any], budget: float | None) -> int | None:
+def _checked_budget(row: Record, budget: float | None) -> int | None:
     if budget is None:
         return None
     committed = row.spent + row.reserved
@@ -211,7 +226,7 @@ def _checked_budget(row: Row[Any], budget: float | None) -> int | None:
     return to_micro(budget)
 
 
-def _new_state(tx: Tx, row: Row[Any], state: wire.RunState) -> dict[str, Any]:
+def _new_state(tx: Tx, row: Record, state: wire.RunState) -> dict[str, Any]:
     if row.state == "finished":
         raise errors.RunFinished("A finished run cannot be resumed; start a new run.")
     if state == "finished":

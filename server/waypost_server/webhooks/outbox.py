@@ -10,6 +10,7 @@ from pydantic import TypeAdapter
 from sqlalchemy import insert, select
 
 from waypost import wire
+from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import deliveries, webhooks
 from waypost_server.db.transaction import Tx
 
@@ -18,7 +19,9 @@ TOPIC = "webhooks"  # the topic that a new message wakes
 _MESSAGE: TypeAdapter[wire.WebhookMessage] = TypeAdapter(wire.WebhookMessage)
 _INSERT = insert(deliveries).returning(deliveries.c.id)
 # The key lock keeps an administrator from deleting a webhook between this look and the insertion of its message.
-_ACTIVE = select(webhooks.c.id, webhooks.c.topics).where(webhooks.c.active).with_for_update(read=True, key_share=True)
+_ACTIVE = Prepared(
+    select(webhooks.c.id, webhooks.c.topics).where(webhooks.c.active).with_for_update(read=True, key_share=True)
+)
 
 
 def announce(tx: Tx, topic: wire.WebhookTopic, run: str, data: Mapping[str, Any]) -> None:
@@ -30,7 +33,7 @@ def announce(tx: Tx, topic: wire.WebhookTopic, run: str, data: Mapping[str, Any]
         run: the id of the run that changed.
         data: the fields of the message's data, except `run`.
     """
-    wanted = [row.id for row in tx.conn.execute(_ACTIVE) if topic in json.loads(row.topics)]
+    wanted = [row.id for row in _ACTIVE.rows(tx.conn, {}) if topic in json.loads(row.topics)]
     if wanted:
         body = _body(topic, tx.now, {"run": run, **data})
         for webhook in wanted:

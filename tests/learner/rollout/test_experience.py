@@ -29,6 +29,21 @@ def test_a_subgoal_that_was_cut_off_goes_on_in_the_state_where_it_was() -> None:
     assert experience.observations[experience.transitions[-1].next_state] is one.states[-1].observation
 
 
+AUTHORS = Returns(discount=0.9, terminal="episode")
+
+
+def test_where_only_the_episode_ends_a_reached_subgoal_is_rewarded_and_goes_on() -> None:
+    one = replace(segment(2, n_actions=2), outcome="reached")
+    assert [(t.reward, t.steps) for t in of_subgoal(one, PSEUDO, AUTHORS).transitions] == [(-0.1, 1), (1.0, 1)]
+
+
+def test_where_only_the_episode_ends_running_out_of_time_is_no_failure_but_death_is() -> None:
+    late = replace(segment(2, n_actions=2), outcome="failed")
+    assert [(t.reward, t.steps) for t in of_subgoal(late, PSEUDO, AUTHORS).transitions] == [(-0.1, 1), (-0.1, 1)]
+    dead = replace(late, final=True)
+    assert [(t.reward, t.steps) for t in of_subgoal(dead, PSEUDO, AUTHORS).transitions] == [(-0.1, 1), (-1.0, 0)]
+
+
 def test_nothing_comes_after_the_end_of_the_episode() -> None:
     ended = replace(segment(2, n_actions=2), final=True)
     assert [t.steps for t in of_subgoal(ended, PSEUDO, ONE).transitions] == [1, 0]

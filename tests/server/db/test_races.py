@@ -9,12 +9,13 @@ from typing import Any
 
 import httpx2
 import pytest
-from sqlalchemy import Connection, create_engine, event, text
+from sqlalchemy import Connection, create_engine, text
 from tests.server.kit import VOCABULARY, Json, Service, in_process, query, right_answer, together
 
 from waypost import wire
 from waypost_server.answers import service as answers
 from waypost_server.app import create_app
+from waypost_server.db import prepared
 from waypost_server.db.transaction import Tx
 from waypost_server.leases import service as leases
 from waypost_server.leases.request import LeaseRequest
@@ -206,21 +207,24 @@ def test_a_key_used_in_two_runs_at_once_is_refused_if_the_first_answer_is_stored
         service.annotator.answer(again, headers={"Idempotency-Key": "def"})
 
 
-def test_a_query_that_is_skipped_while_its_annotator_leases_does_not_come_back(cluster: Any) -> None:
+def test_a_query_that_is_skipped_while_its_annotator_leases_does_not_come_back(
+    cluster: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with in_process(cluster.create()) as service:
         service.annotator.lease(expect=204)  # the annotator is at work, so the next lease does not record it
         first, second = service.learner.ask(service.learner.create_run(), query(), query(ordinal=1))
         user = service.annotator.get("/me")["id"]
         wanted = LeaseRequest.of(wire.Lease(), user, Settings())
+        run_sql, engine = prepared.run_sql, create_engine(service.db.url)
 
-        def skip(_conn: Any, _cursor: Any, statement: str, *_: Any) -> None:
-            if "ORDER BY answers.id DESC" in statement:  # the first query was selected, but is not locked yet
+        def skipping(conn: Connection, statement: str, arguments: Any = ()) -> Any:
+            if conn.engine is engine and "ORDER BY answers.id DESC" in statement:  # selected, but not locked yet
                 held = service.annotator.lease()
                 assert held["query"]["id"] == first["id"]
                 service.annotator.release(held, skip=True)
+            return run_sql(conn, statement, arguments)
 
-        engine = create_engine(service.db.url)
-        event.listen(engine, "before_cursor_execute", skip)
+        monkeypatch.setattr(prepared, "run_sql", skipping)
         with engine.begin() as conn:
             leased = leases.lease(Tx(conn), wanted)
         engine.dispose()

@@ -3,33 +3,27 @@
 from typing import Any
 
 import pytest
-from sqlalchemy import event
-from sqlalchemy.engine import Engine
+from sqlalchemy import Connection
 from tests.server.kit import Json, Service, query
+
+from waypost_server.db import prepared
 
 
 def plans(service: Service, wish: Json) -> list[str]:
     """Return the plan of each statement by which a lease request selects a query."""
-    sent: list[tuple[str, Any]] = []
+    found: list[str] = []
+    run_sql = prepared.run_sql
 
-    def record(_conn: Any, _cursor: Any, statement: str, parameters: Any, *_: Any) -> None:
+    def explaining(conn: Connection, statement: str, arguments: Any = ()) -> Any:
         if "ORDER BY queries.run_priority" in statement:
-            sent.append((statement, parameters))
+            rows = run_sql(conn, f"EXPLAIN QUERY PLAN {statement}", arguments).fetchall()
+            found.append("\n".join(row[3] for row in rows))
+        return run_sql(conn, statement, arguments)
 
-    event.listen(Engine, "before_cursor_execute", record)
-    try:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(prepared, "run_sql", explaining)
         service.annotator.lease(**wish)
-    finally:
-        event.remove(Engine, "before_cursor_execute", record)
-    return [
-        "\n".join(
-            row[3]
-            for row in service.db.read_now(
-                lambda tx, one=one: tx.conn.exec_driver_sql(f"EXPLAIN QUERY PLAN {one[0]}", one[1]).all()
-            )
-        )
-        for one in sent
-    ]
+    return found
 
 
 @pytest.mark.parametrize("wish", [{}, {"kinds": ["inspect_full"]}, {"defer": 5}, {"ahead": True}])
