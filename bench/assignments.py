@@ -2,7 +2,8 @@
 
 A real server process is used over loopback, with queries of about 2 kB and annotators who do not pause. A cycle is one
 lease and one answer, each acknowledged after it is on disk. In a chain, the reply to the answer contains the next
-lease, so a cycle is one call. The script prints a table per database and asserts nothing.
+lease, so a cycle is one call. In batches, one call leases 32 queries and one answers them. All queries are asked before
+the clock starts. The script prints a table per database and asserts nothing.
 """
 
 import argparse
@@ -14,11 +15,11 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -31,10 +32,14 @@ from waypost_server.users import service as users
 
 ANNOTATORS = (1, 8, 32)
 BATCH = 100  # queries asked at a time
-BACKLOG = 3_000  # queries kept open
+BACKLOG = 3_000  # open queries at the start
+MODES = ("lease + answer", "chained", "batches")
+TOGETHER = 32  # queries of a batch of answers
 VOCABULARY = {"domain": "bench", "subgoals": ["here"], "actions": ["up", "down"], "renderer": "none"}
+ANSWER = {"kind": "inspect_lo", "verdict": "pass"}
 HEADER = (
-    "| database | mode | annotators | cycles/s | limit / ours | p50 ms | p99 ms | max ms | CPU ms/cycle | duplicates |"
+    "| database | mode | annotators | open | cycles/s | limit / ours | p50 ms | p99 ms | max ms | CPU ms/cycle | "
+    "duplicates |"
 )
 
 
@@ -80,55 +85,64 @@ def _wait_until_ready(url: str) -> None:
             return
 
 
-class Learner(threading.Thread):
-    """A learner that keeps about `BACKLOG` queries open."""
-
-    def __init__(self, url: str, headers: dict[str, str]) -> None:
-        super().__init__(daemon=True)
-        self._client = httpx2.Client(base_url=f"{url}/api/v1", headers=headers, timeout=60)
-        body = {"name": "bench", "algorithm": "bench", "seed": 0, "vocabulary": VOCABULARY}
-        self.run_id = self._client.post("/runs", json=body).json()["id"]
-        self._asked = 0
-        self._stopping = threading.Event()
-        while self._asked < BACKLOG:
-            self._ask()
-
-    def _ask(self) -> None:
-        body = {"queries": [query(self._asked + n) for n in range(BATCH)]}
-        self._client.post(f"/runs/{self.run_id}/queries", json=body).raise_for_status()
-        self._asked += BATCH
-
-    def run(self) -> None:
-        """Ask another batch of queries whenever about one batch has been answered."""
-        while not self._stopping.wait(0.5):
-            if self._client.get(f"/runs/{self.run_id}").json()["open_queries"] < BACKLOG - BATCH:
-                self._ask()
-
-    def stop(self) -> None:
-        """Finish the run, so that the next measurement starts without open queries."""
-        self._stopping.set()
-        self.join()
-        self._client.patch(f"/runs/{self.run_id}", json={"state": "finished"})
-
-
-def annotate(url: str, headers: dict[str, str], run: str, until: float, chained: bool) -> tuple[list[float], list[int]]:
-    """Answer queries until the time `until`; return the seconds of each cycle and the ids of the answered queries."""
-    seconds: list[float] = []
-    answered: list[int] = []
-    assignment: dict[str, Any] | None = None
+def ask_all(url: str, headers: dict[str, str], backlog: int) -> str:
+    """Create a run with this many open queries; return its id."""
     with httpx2.Client(base_url=f"{url}/api/v1", headers=headers, timeout=60) as client:
+        body = {"name": "bench", "algorithm": "bench", "seed": 0, "vocabulary": VOCABULARY}
+        run = str(client.post("/runs", json=body).json()["id"])
+        for first in range(0, backlog, BATCH):
+            asked = [query(number) for number in range(first, min(first + BATCH, backlog))]
+            client.post(f"/runs/{run}/queries", json={"queries": asked}).raise_for_status()
+    return run
+
+
+class Annotator:
+    """An annotator who answers without a pause, until there are no more queries or the time is over."""
+
+    def __init__(self, url: str, headers: dict[str, str], run: str) -> None:
+        self._client = httpx2.Client(base_url=f"{url}/api/v1", headers=headers, timeout=60)
+        self._run = run
+        self.seconds: list[float] = []  # of each cycle
+        self.answered: list[int] = []  # the queries
+
+    def work(self, mode: str, until: float) -> None:
+        """Work in one of `MODES`."""
+        with self._client:
+            if mode == "batches":
+                self._in_batches(until)
+            else:
+                self._one_by_one(until, chained=mode == "chained")
+
+    def _one_by_one(self, until: float, *, chained: bool) -> None:
+        wanted = {"run": self._run}
+        held: dict[str, Any] | None = None
         while time.perf_counter() < until:
             start = time.perf_counter()
-            if assignment is None:
-                assignment = client.post("/assignments", json={"run": run, "wait": 5}).json()
-            body: dict[str, Any] = {"token": assignment["token"], "answer": {"kind": "inspect_lo", "verdict": "pass"}}
+            if held is None:
+                reply = self._client.post("/assignments", json=wanted)
+                if reply.status_code == 204:
+                    return
+                held = reply.json()
+            body: dict[str, Any] = {"token": held["token"], "answer": ANSWER}
             if chained:
-                body["next"] = {"run": run, "wait": 5}
-            receipt = client.post(f"/assignments/{assignment['id']}/answer", json=body).raise_for_status().json()
-            seconds.append(time.perf_counter() - start)
-            answered.append(receipt["query"])
-            assignment = receipt["next"]
-    return seconds, answered
+                body["next"] = wanted
+            receipt = self._client.post(f"/assignments/{held['id']}/answer", json=body).raise_for_status().json()
+            self.seconds.append(time.perf_counter() - start)
+            self.answered.append(receipt["query"])
+            held = receipt["next"]
+
+    def _in_batches(self, until: float) -> None:
+        wanted = {"run": self._run, "count": TOGETHER}
+        while time.perf_counter() < until:
+            start = time.perf_counter()
+            held = self._client.post("/assignments/batch", json=wanted).json()["assignments"]
+            if not held:
+                return
+            answers = [{"assignment": one["id"], "token": one["token"], "answer": ANSWER} for one in held]
+            results = self._client.post("/assignments/answers", json={"answers": answers}).json()["results"]
+            each = (time.perf_counter() - start) / len(held)
+            self.seconds += [each] * len(held)
+            self.answered += [result["receipt"]["query"] for result in results]
 
 
 def cpu_seconds(pid: int) -> float:
@@ -137,25 +151,23 @@ def cpu_seconds(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def row(name: str, database: str, n: int, seconds: float, chained: bool, limit: float) -> str:
+def row(name: str, database: str, n: int, seconds: float, mode: str, backlog: int, limit: float) -> str:
     """Measure and return one row of the table; `limit` is the number of commits/s of SQLite alone on this disk."""
-    with serving(database) as (url, pid, learner_headers, annotators):
-        learner = Learner(url, learner_headers)
-        learner.start()
-        before, until = cpu_seconds(pid), time.perf_counter() + seconds
+    with serving(database) as (url, pid, learner, headers):
+        run = ask_all(url, learner, backlog)
+        annotators = [Annotator(url, headers[k], run) for k in range(n)]
+        before, start = cpu_seconds(pid), time.perf_counter()
         with ThreadPoolExecutor(n) as pool:
-            done = list(pool.map(lambda k: annotate(url, annotators[k], learner.run_id, until, chained), range(n)))
-        cpu = cpu_seconds(pid) - before
-        learner.stop()
-    times = sorted(1_000 * one for cycle_times, _ in done for one in cycle_times)
-    answered = [one for _, queries in done for one in queries]
+            list(pool.map(lambda one: one.work(mode, start + seconds), annotators))
+        cpu, took = cpu_seconds(pid) - before, time.perf_counter() - start
+    times = sorted(1_000 * each for one in annotators for each in one.seconds)
+    answered = [query for one in annotators for query in one.answered]
     p99 = times[min(len(times) - 1, int(0.99 * len(times)))]
-    mode = "chained" if chained else "lease + answer"
     duplicates = len(answered) - len(set(answered))
-    rate = len(times) / seconds
+    rate = len(times) / took
     return (
-        f"| {name} | {mode} | {n} | {rate:.0f} | {limit / rate:.0f} | {statistics.median(times):.1f} | {p99:.1f} | "
-        f"{times[-1]:.0f} | {1_000 * cpu / len(times):.1f} | {duplicates}/{len(answered)} |"
+        f"| {name} | {mode} | {n} | {backlog} | {rate:.0f} | {limit / rate:.0f} | {statistics.median(times):.1f} | "
+        f"{p99:.1f} | {times[-1]:.0f} | {1_000 * cpu / len(times):.2f} | {duplicates}/{len(answered)} |"
     )
 
 
@@ -187,6 +199,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--seconds", type=float, default=10.0, help="seconds per row")
     parser.add_argument("--annotators", type=int, nargs="+", default=list(ANNOTATORS))
+    parser.add_argument("--modes", nargs="+", choices=MODES, default=list(MODES))
+    parser.add_argument("--backlogs", type=int, nargs="+", default=[BACKLOG], help="open queries at the start")
     parser.add_argument("--databases", nargs="+", default=["SQLite", "PostgreSQL"])
     options = parser.parse_args()
     print(machine())
@@ -205,11 +219,10 @@ def main() -> None:
         print(f"Upper limit: SQLite alone makes {limit:.0f} commits/s on this disk (WAL, FULL, one row each).\n")
         print(HEADER)
         print("|---" * HEADER.count(" | ") + "|---|")
-        for name in options.databases:
-            for chained in (False, True):
-                for n in options.annotators:
-                    if name in targets:
-                        print(row(name, targets[name](f"{n}{chained}"), n, options.seconds, chained, limit), flush=True)
+        rows = product(options.databases, options.modes, options.backlogs, options.annotators)
+        for number, (name, mode, backlog, n) in enumerate(rows):
+            if name in targets:
+                print(row(name, targets[name](number), n, options.seconds, mode, backlog, limit), flush=True)
 
 
 if __name__ == "__main__":

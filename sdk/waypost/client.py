@@ -184,6 +184,16 @@ class Client:
         response = self._send("POST", "/assignments", lease)
         return None if response.status_code == 204 else _read(wire.Assignment, response)
 
+    def lease_batch(self, lease: wire.LeaseBatch) -> list[wire.Assignment]:
+        """Lease several queries at once; wait up to `lease.wait` seconds for the first."""
+        return self._call(wire.AssignmentList, "POST", "/assignments/batch", lease).assignments
+
+    def answer_batch(self, answers: Sequence[tuple[wire.Assignment, wire.Answer]]) -> list[wire.BatchResult]:
+        """Answer several queries at once, stored by one commit. One that is refused does not affect the others."""
+        posted = [wire.BatchedAnswer(assignment=held.id, token=held.token, answer=answer) for held, answer in answers]
+        body = wire.AnswerBatch(answers=posted)
+        return self._call(wire.BatchReceipt, "POST", "/assignments/answers", body).results
+
     def assignments(self) -> list[wire.Assignment]:
         """Return this user's live assignments, oldest first."""
         return self._call(wire.AssignmentList, "GET", "/assignments").assignments

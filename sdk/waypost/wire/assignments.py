@@ -11,11 +11,16 @@ from waypost.wire.system import Problem
 from waypost.wire.words import Kind, Message, Name, Note
 
 __all__ = [
+    "AnswerBatch",
     "AnswerPost",
     "AssignedRun",
     "Assignment",
     "AssignmentList",
+    "BatchReceipt",
+    "BatchResult",
+    "BatchedAnswer",
     "Lease",
+    "LeaseBatch",
     "Leave",
     "Price",
     "Receipt",
@@ -56,6 +61,24 @@ class Lease(Message):
     )
 
 
+class LeaseBatch(Message):
+    """A request for several queries at once, sent by a bot."""
+
+    count: int = Field(ge=1, le=100, description="The most queries to lease.")
+    wait: float = Field(
+        default=0, ge=0, le=60, allow_inf_nan=False, description="The longest time to wait for a query, in seconds."
+    )
+    kinds: list[Kind] | None = Field(default=None, description="Only queries of these kinds; null for all kinds.")
+    run: str | None = Field(default=None, description="Only queries of the run with this id; null for all runs.")
+    defer: float = Field(
+        default=0,
+        ge=0,
+        le=3_600,
+        allow_inf_nan=False,
+        description="How long to leave new queries to other working annotators who take their kind, in seconds.",
+    )
+
+
 class Price(Message):
     """The price of an answer, sent by the server: `fixed` + `per_action` x actions + `per_segment` x segments.
 
@@ -89,7 +112,7 @@ class Assignment(Message):
 
 
 class AssignmentList(Message):
-    """The caller's live assignments, oldest first, sent by the server. A reloaded web app continues with them."""
+    """Live assignments of the caller, oldest first, sent by the server. A reloaded web app continues with them."""
 
     assignments: list[Assignment]
 
@@ -100,6 +123,20 @@ class AnswerPost(Message):
     token: str = Field(max_length=200, description="The token of the assignment.")
     answer: Answer
     next: Lease | None = Field(default=None, description="Which query to lease in the same call; null for none.")
+
+
+class BatchedAnswer(Message):
+    """One answer of a batch."""
+
+    assignment: int = Field(ge=1, le=2**63 - 1, description="The id of the assignment.")
+    token: str = Field(max_length=200, description="The token of the assignment.")
+    answer: Answer
+
+
+class AnswerBatch(Message):
+    """Answers that are stored together, sent by a bot. Sending them again returns the same receipts."""
+
+    answers: list[BatchedAnswer] = Field(min_length=1, max_length=100)
 
 
 class Receipt(Message):
@@ -116,6 +153,19 @@ class Receipt(Message):
         description="The reason why no next query could be leased; null if none was requested or available. The answer "
         "is stored all the same.",
     )
+
+
+class BatchResult(Message):
+    """What became of one answer of a batch: it has a receipt, or a problem because of which it does not count."""
+
+    receipt: Receipt | None
+    problem: Problem | None
+
+
+class BatchReceipt(Message):
+    """The server's reply to a batch of answers: what became of each, in the same order."""
+
+    results: list[BatchResult]
 
 
 class TokenPost(Message):

@@ -28,7 +28,7 @@ QueryState = Literal["open", "leased", "answered", "cancelled"]
 Role = Literal["admin", "learner", "annotator", "viewer"]
 
 Json = Annotated[JsonValue, SerializeAsAny()]
-"""Any JSON value, serialized as it is. Otherwise, in a union, pydantic would check each value in it again, in Python."""
+"""Any JSON value, serialized as it is. Otherwise pydantic would check each value again in Python when in a union."""
 
 Name = Annotated[str, Field(min_length=1, max_length=100, pattern=r"^[^\x00-\x1f\x7f]+$")]
 Note = Annotated[str, Field(max_length=500, pattern=r"^[^\x00]*$")]

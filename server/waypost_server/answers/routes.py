@@ -6,7 +6,7 @@ from fastapi import APIRouter, Header, Request
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.answers import following, retraction
+from waypost_server.answers import batch, following, retraction
 from waypost_server.answers import service as answers
 from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
@@ -60,6 +60,14 @@ async def answer(
         return receipt
     leased = await following.wait(context, request, wanted, body.next.wait)
     return receipt.model_copy(update={"next": leased.assignment, "next_problem": leased.problem})
+
+
+@router.post("/answers", operation_id="answerBatch")
+async def answer_batch(body: wire.AnswerBatch, context: Ctx, caller: Allowed) -> wire.BatchReceipt:
+    """Answer several queries, stored by one commit. Each answer has a receipt, or the problem why it does not count."""
+    idle = context.settings.idle_seconds
+    posts = [answers.Post(one.assignment, caller.user, one.token, one.answer, None, idle) for one in body.answers]
+    return await context.db.write(lambda tx: batch.answer_all(tx, posts))
 
 
 @router.post(

@@ -63,6 +63,8 @@ ACCESS: Mapping[str, Access] = {
     "listGold": _LEARN,
     # assignments
     "lease": _ANSWER,
+    "leaseBatch": _ANSWER,
+    "answerBatch": _ANSWER,  # each answer is for the owner of its assignment, like `answer`
     "myAssignments": _ANSWER,
     "leave": _ANSWER,
     "answer": _OWN_ASSIGNMENT,

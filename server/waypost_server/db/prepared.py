@@ -106,6 +106,8 @@ class Prepared:
         )
 
     def _execute(self, conn: Connection, compiled: Compiled, parameters: Parameters) -> Any:
+        if not conn.in_transaction():
+            conn.begin()  # as SQLAlchemy does, which would otherwise not know of the transaction
         return run_sql(conn, compiled.sql, compiled.arguments(parameters))
 
 

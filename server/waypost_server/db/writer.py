@@ -48,7 +48,8 @@ class Places:
     """The places of transactions that wait or run. With all of them taken, the next transaction is refused."""
 
     def __init__(self) -> None:
-        self._free = threading.Semaphore(MOST_WAITING)
+        self._taken = 0
+        self._lock = threading.Lock()
 
     def take(self) -> None:
         """Take a place.
@@ -56,15 +57,18 @@ class Places:
         Raises:
             StoreBusy: there is none.
         """
-        if not self._free.acquire(blocking=False):
-            raise errors.StoreBusy(
-                "Too many requests wait to be stored, so nothing was stored; send the same request again.",
-                retry_after=1,
-            )
+        with self._lock:
+            if self._taken >= MOST_WAITING:
+                raise errors.StoreBusy(
+                    "Too many requests wait to be stored, so nothing was stored; send the same request again.",
+                    retry_after=1,
+                )
+            self._taken += 1
 
     def leave(self, _future: Future[Any]) -> None:
         """Free the place of a transaction that is done."""
-        self._free.release()
+        with self._lock:
+            self._taken -= 1
 
 
 @dataclass(frozen=True)
@@ -178,7 +182,10 @@ class GroupCommit:
 
     def _commit(self, conn: Connection, group: list[Job]) -> None:
         topics: Topics = set()
-        outcomes = [_in_savepoint(conn, job.work, topics) for job in group]
+        if len(group) == 1:
+            outcomes = [_alone(conn, group[0].work, topics)]
+        else:
+            outcomes = [_in_savepoint(conn, job.work, topics) for job in group]
         conn.commit()
         # The group is on disk from here on.
         if topics:
@@ -193,6 +200,19 @@ class GroupCommit:
 def _fail(jobs: Iterable[Job], error: Exception) -> None:
     for job in jobs:
         job.future.set_exception(_storage_failed(error) if isinstance(error, DBAPIError) else error)
+
+
+def _alone(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:
+    """Run the only job of a batch, which needs no savepoint: to undo it is to undo all."""
+    try:
+        return work(conn, topics), None
+    except OperationalError:
+        raise
+    except Exception as error:
+        conn.rollback()
+        conn.begin()
+        topics.clear()
+        return None, error
 
 
 def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:

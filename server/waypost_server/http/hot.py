@@ -11,6 +11,7 @@ from fastapi import Request, Response
 from fastapi.exceptions import RequestValidationError
 from fastapi.params import Depends, Header
 from fastapi.routing import APIRoute
+from fastapi.security.base import SecurityBase
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import from_json
 from starlette.requests import HTTPConnection
@@ -86,10 +87,10 @@ def _split(function: Callable[..., Any]) -> tuple[list[tuple[str, Finder]], dict
     return found, others
 
 
-def _finder(dependency: Callable[..., Any]) -> Finder:
+def _finder(dependency: Any) -> Finder:
     """Return a dependency with its own dependencies found."""
-    if not hasattr(dependency, "__code__"):  # an object of `fastapi.security`, which is called with the request
-        return dependency
+    if isinstance(dependency, SecurityBase):
+        return _nothing
     needed, _ = _split(dependency)
 
     async def find(request: Request) -> Any:
@@ -100,6 +101,10 @@ def _finder(dependency: Callable[..., Any]) -> Finder:
 
 async def _request(request: Request) -> Request:
     return request
+
+
+async def _nothing(_: Request) -> None:
+    """Stand for what only documents how a caller is authenticated."""
 
 
 async def _parsed(request: Request) -> Any:

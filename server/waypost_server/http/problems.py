@@ -41,6 +41,12 @@ def render(refusal: Refusal, instance: str | None = None) -> JSONResponse:
     return JSONResponse(body, refusal.status, headers, MEDIA_TYPE)
 
 
+def problem(refusal: Refusal) -> wire.Problem:
+    """Return a refusal as a part of a reply."""
+    body = document(refusal.status, refusal.name, refusal.title, refusal.detail)
+    return wire.Problem.model_validate(body if refusal.errors is None else body | {"errors": refusal.errors})
+
+
 def failed(method: str, path: str, error: Exception) -> JSONResponse:
     """Log a failure of the server, and return the response, which says nothing about its cause."""
     log.error("%s %s failed", method, path, exc_info=error)

@@ -40,6 +40,11 @@ class LeaseRequest:
             settings.follow_up_seconds,
         )
 
+    @classmethod
+    def batch(cls, lease: wire.LeaseBatch, user: int, settings: Settings) -> "LeaseRequest":
+        """Return the request of a message for several queries."""
+        return cls.of(wire.Lease(**lease.model_dump(exclude={"count"})), user, settings)
+
     def parameters(self, now: float) -> dict[str, Any]:
         """Return the parameters of the statements that select a query."""
         return {

@@ -32,6 +32,13 @@ async def lease(body: wire.Lease, request: Request, context: Ctx, caller: Allowe
     return found if found is not None else Response(status_code=204)
 
 
+@router.post("/batch", status_code=201, operation_id="leaseBatch", responses=refusals(errors.NotFound))
+async def lease_batch(body: wire.LeaseBatch, request: Request, context: Ctx, caller: Allowed) -> wire.AssignmentList:
+    """Lease the next queries, for a bot that answers several at once; wait for the first. The list may be empty."""
+    wanted = LeaseRequest.batch(body, caller.user, context.settings)
+    return wire.AssignmentList(assignments=await waiting.lease_batch(context, request, wanted, body.count, body.wait))
+
+
 @router.post("/leave", status_code=204, operation_id="leave")
 async def leave(body: wire.Leave, context: Ctx, caller: Allowed) -> None:
     """Close a browser tab: release its assignments, except those in `keep`, and refuse its lease requests."""

@@ -27,6 +27,7 @@ class Candidates:
     first: Prepared
     follow_up: Prepared
     unlocked: Prepared
+    some_unlocked: Prepared
 
     @classmethod
     def among(cls, offered: Select[Any]) -> "Candidates":
@@ -42,6 +43,7 @@ class Candidates:
             Prepared(offered.limit(1)),
             Prepared(offered.where(*last).limit(1)),
             Prepared(offered.limit(1).with_for_update(skip_locked=True, of=queries)),
+            Prepared(offered.limit(bindparam("most")).with_for_update(skip_locked=True, of=queries)),
         )
 
 
@@ -84,6 +86,14 @@ def select_next(tx: Tx, request: LeaseRequest) -> int | None:
     if locked is None:
         locked = candidates.unlocked.first(tx.conn, parameters)
     return None if locked is None else int(locked.id)
+
+
+def select_several(tx: Tx, request: LeaseRequest, most: int) -> list[int]:
+    """Return the next queries, locked, at most `most`; follow-ups do not come first here."""
+    n_others = presence.others(tx, request.user, request.run, request.presence_seconds)
+    candidates = _candidates(request.kinds, request.run is not None, n_others > 0, request.defer > 0)
+    chosen = candidates.some if tx.one_writer else candidates.some_unlocked
+    return [int(row.id) for row in chosen.rows(tx.conn, request.parameters(tx.now) | {"most": most})]
 
 
 def _leaves_enough(tx: Tx, candidates: Candidates, parameters: dict[str, Any], n_others: int) -> bool:

@@ -39,17 +39,34 @@ def lease(tx: Tx, request: LeaseRequest) -> wire.Assignment | None:
         NotFound: the request names an unknown run.
         Unauthenticated, Forbidden: the user may no longer answer.
     """
+    _begin(tx, request)
+    if request.tab is not None and closed_tabs.is_closed(tx, request.user, request.tab):
+        return None
+    query = selection.select_next(tx, request)
+    return None if query is None else _hand_out(tx, request, query)
+
+
+def lease_batch(tx: Tx, request: LeaseRequest, count: int) -> list[wire.Assignment]:
+    """Lease the next queries to an annotator, at most `count`.
+
+    Raises:
+        NotFound, Unauthenticated, Forbidden: as in `lease`.
+    """
+    _begin(tx, request)
+    return [_hand_out(tx, request, query) for query in selection.select_several(tx, request, count)]
+
+
+def _begin(tx: Tx, request: LeaseRequest) -> None:
     expire(tx)
     check_still(tx, ACCESS["lease"], request.user)
     if request.run is not None:
         runs.find(tx, request.run)
-    if request.tab is not None and closed_tabs.is_closed(tx, request.user, request.tab):
-        return None
     if request.defer == 0:
         presence.record(tx, request.user, request.run, request.kinds)
-    query = selection.select_next(tx, request)
-    if query is None:
-        return None
+
+
+def _hand_out(tx: Tx, request: LeaseRequest, query: int) -> wire.Assignment:
+    """Lease a selected query, or a gold query in its place."""
     query = schedule.replace_with_gold(tx, request.user, request.kinds, query)
     assignment = grant(
         tx,

@@ -45,6 +45,8 @@ MATRIX: dict[str, set[str]] = {
     "putFrames": LEARNERS,
     "missingFrames": LEARNERS,
     "lease": ANNOTATORS,
+    "leaseBatch": ANNOTATORS,
+    "answerBatch": ANNOTATORS,  # test_batch says whose
     "myAssignments": ANNOTATORS,
     "leave": ANNOTATORS,
     "answer": HOLDER,
@@ -155,6 +157,16 @@ BODIES: dict[str, Body] = {
     "putFrames": lambda scene: {"frames": [scene.frame]},
     "missingFrames": lambda scene: {"hashes": [scene.frame["hash"]]},
     "lease": lambda _: {},
+    "leaseBatch": lambda _: {"count": 1},
+    "answerBatch": lambda scene: {
+        "answers": [
+            {
+                "assignment": scene.held["id"],
+                "token": scene.held["token"],
+                "answer": right_answer(scene.held["query"]["ask"]),
+            }
+        ]
+    },
     "leave": lambda _: {"tab": "a-tab", "keep": []},
     "answer": lambda scene: {"token": scene.held["token"], "answer": right_answer(scene.held["query"]["ask"])},
     "renew": lambda scene: {"token": scene.held["token"]},

@@ -2,7 +2,7 @@
 
 import sqlite3
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from typing import Any
 
@@ -20,8 +20,17 @@ def add(name: str) -> Any:
     return lambda conn, _topics: conn.execute(text("INSERT INTO notes VALUES (:name)"), {"name": name}).rowcount
 
 
+Hooks = list[Callable[[], None]]
+
+
 @pytest.fixture
-def engine(tmp_path: Any) -> Iterator[Engine]:
+def before_begin() -> Hooks:
+    """What happens just before each transaction begins."""
+    return []
+
+
+@pytest.fixture
+def engine(tmp_path: Any, before_begin: Hooks) -> Iterator[Engine]:
     connect = {"check_same_thread": False, "timeout": 0.1}
     engine = create_engine(f"sqlite:///{tmp_path / 'notes.db'}", connect_args=connect)
 
@@ -31,6 +40,8 @@ def engine(tmp_path: Any) -> Iterator[Engine]:
 
     @event.listens_for(engine, "begin")
     def begun(conn: Any) -> None:
+        for hook in before_begin:
+            hook()
         conn.exec_driver_sql("BEGIN IMMEDIATE")
 
     with engine.begin() as conn:
@@ -130,26 +141,26 @@ def test_a_database_that_fails_in_one_leaves_the_others_of_its_batch(writer: Gro
 class Intruder:
     """Another process, which takes the store's lock just before the writer's n-th attempt from now on."""
 
-    def __init__(self, engine: Engine) -> None:
+    def __init__(self, engine: Engine, before_begin: Hooks) -> None:
         self._store = sqlite3.connect(str(engine.url.database), isolation_level=None, check_same_thread=False)
-        self._engine = engine
+        self._before_begin = before_begin
         self.attempts = 0
 
     def lock_at(self, attempt: int) -> None:
-        def attempted(_conn: Any) -> None:
+        def attempted() -> None:
             self.attempts += 1
             if self.attempts == attempt:
                 self._store.execute("BEGIN IMMEDIATE")
 
-        event.listen(self._engine, "engine_connect", attempted)
+        self._before_begin.append(attempted)
 
     def leave(self) -> None:
         self._store.close()
 
 
 @pytest.fixture
-def intruder(engine: Engine) -> Iterator[Intruder]:
-    intruder = Intruder(engine)
+def intruder(engine: Engine, before_begin: Hooks) -> Iterator[Intruder]:
+    intruder = Intruder(engine, before_begin)
     yield intruder
     intruder.leave()
 

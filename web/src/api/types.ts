@@ -8,6 +8,7 @@ export type AskOf<K extends Kind> = Extract<Ask, { kind: K }>;
 export type Kind = Ask['kind'];
 export type Answer = Schemas['AnswerPost']['answer'];
 export type AnswerOf<K extends Answer['kind']> = Extract<Answer, { kind: K }>;
+export type AssignedRun = Schemas['AssignedRun'];
 export type Assignment = Schemas['Assignment'];
 export type DemoSegment = Schemas['DemoSegment'];
 export type Costs = Schemas['Costs'];
