@@ -15,6 +15,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
 
 from waypost_server import errors
 from waypost_server.db import schema
+from waypost_server.db.notifications import Notifications
 from waypost_server.db.prepared import run_sql
 from waypost_server.db.transaction import Tx
 from waypost_server.db.wakeups import Topics
@@ -34,8 +35,8 @@ class BadDatabase(Exception):
 class Database:
     """An open store with this version's schema, which is created in an empty database."""
 
-    def __init__(self, url: str, committed: Callable[[Topics], None] = lambda _: None) -> None:
-        """Open a store.
+    def __init__(self, url: str, committed: Callable[[Topics], None] | None = None) -> None:
+        """Open a store. `committed` is called with the topics of each commit, on PostgreSQL also of other processes.
 
         Raises:
             BadDatabase, WrongSchema: with one sentence for the operator.
@@ -45,8 +46,15 @@ class Database:
         self._engine, _ = _prepared(self.url, schema.create)
         self._read_engine = _sqlite(self.url, writes=False) if lite else _snapshots(self._engine)
         self._readers = ThreadPoolExecutor(READERS, "waypost-read")
+        self._notifications = None if lite or committed is None else Notifications(self.url, committed)
+        tell = self._notifications.committed if self._notifications else _nobody
+
+        def changed(topics: Topics) -> None:
+            (committed or _nobody)(topics)
+            tell(topics)
+
         self._writer: Writer = (
-            GroupCommit(self._engine, committed) if lite else CommittingThreads(self._engine, committed, WRITERS)
+            GroupCommit(self._engine, changed) if lite else CommittingThreads(self._engine, changed, WRITERS)
         )
 
     def write_now(self, work: Callable[[Tx], T]) -> T:
@@ -80,6 +88,8 @@ class Database:
     def close(self) -> None:
         """Finish submitted transactions and close every connection."""
         self._writer.close()
+        if self._notifications:
+            self._notifications.close()
         self._readers.shutdown()
         self._read_engine.dispose()
         self._engine.dispose()
@@ -164,6 +174,10 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
         run_sql(conn, "BEGIN IMMEDIATE" if writes else "BEGIN")
 
     return engine
+
+
+def _nobody(_: Topics) -> None:
+    """Nobody waits for what is committed."""
 
 
 def _snapshots(engine: Engine) -> Engine:

@@ -34,7 +34,7 @@ class Compiled:
         Raises:
             KeyError: one is missing.
         """
-        given = {**self.constants, **parameters}
+        given = {**self.constants, **parameters} if self.constants else parameters
         return given if self.order is None else [given[name] for name in self.order]
 
     def row_of(self, values: Sequence[Any]) -> Any:
