@@ -55,7 +55,7 @@ class Returns:
 
     discount: float  # gamma
     ahead: int = 1
-    # Of a subgoal's experience: whose end is terminal. "episode" is what the authors' code for Montezuma's Revenge does:
+    # Whose end is terminal in a subgoal's experience. With "episode", as in the authors' code for Montezuma's Revenge,
     # a reached subgoal is rewarded but goes on in the state after it, and one that runs out of time has not failed.
     terminal: Literal["subgoal", "episode"] = "subgoal"
 

@@ -5,6 +5,8 @@ one connection, which writes and commits many transactions at once (`db.writer`)
 """
 
 import asyncio
+import sqlite3
+import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar
@@ -159,7 +161,7 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
         cursor = dbapi.cursor()
         cursor.execute("PRAGMA foreign_keys = ON")
         if writes:
-            cursor.execute("PRAGMA journal_mode = WAL")
+            _use_wal(cursor)
             cursor.execute("PRAGMA synchronous = FULL")
             # What a savepoint would undo is kept in memory, not in a file that is created for each transaction.
             cursor.execute("PRAGMA temp_store = MEMORY")
@@ -174,6 +176,20 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
         run_sql(conn, "BEGIN IMMEDIATE" if writes else "BEGIN")
 
     return engine
+
+
+def _use_wal(cursor: Any) -> None:
+    """Turn on the write-ahead log. While another process does so in a new file, SQLite refuses it without waiting."""
+    give_up = time.monotonic() + BUSY_SECONDS
+    while True:
+        try:
+            cursor.execute("PRAGMA journal_mode = WAL")
+        except sqlite3.OperationalError:
+            if time.monotonic() > give_up:
+                raise
+            time.sleep(0.01)
+        else:
+            return
 
 
 def _nobody(_: Topics) -> None:
