@@ -98,6 +98,12 @@ class Caller:
     def patch(self, run: str, expect: int = 200, **changes: Any) -> Any:
         return self.call("PATCH", f"/runs/{run}", changes, expect)
 
+    # --- the administrator's side
+
+    def change(self, other: "Caller", **changes: Any) -> Any:
+        """Change another user: their role, or whether they are active."""
+        return self.call("PATCH", f"/users/{other.get('/me')['id']}", changes)
+
     # --- the annotator's side
 
     def lease(self, expect: int = 201, **wish: Any) -> Any:

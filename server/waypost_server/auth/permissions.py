@@ -68,6 +68,15 @@ async def admit(
 Allowed = Annotated[Caller, Depends(admit)]
 
 
+async def readmit(request: Request, cache: CredentialCache) -> Caller:
+    """Admit the caller of a long request again.
+
+    Raises:
+        Unauthenticated, Forbidden: the caller may no longer call the operation.
+    """
+    return await admit(request, cache, None, None)
+
+
 async def authenticate_socket(socket: HTTPConnection, cache: CredentialCache) -> Caller:
     """Return the caller who opens a play socket. With a cookie, the socket must come from this server's own web app.
 

@@ -7,11 +7,13 @@ from fastapi.responses import StreamingResponse
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.permissions import Allowed
+from waypost_server.auth.lookup import Cached, CredentialCache
+from waypost_server.auth.permissions import Allowed, Caller, readmit
 from waypost_server.auth.roles import WATCHERS
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.problems import refusals
+from waypost_server.http.recheck import Recheck
 from waypost_server.runs import events
 from waypost_server.runs import service as runs
 from waypost_server.watch import sse
@@ -37,6 +39,7 @@ async def stream_events(
     run: str,
     request: Request,
     context: Ctx,
+    cache: Cached,
     caller: Allowed,
     after: Annotated[
         int | None, Query(ge=0, le=2**63 - 1, description="Only events after this id; without it, only new events.")
@@ -47,7 +50,8 @@ async def stream_events(
     start = int(last_event_id) if last_event_id and last_event_id.isascii() and last_event_id.isdigit() else after
     newest = await context.db.read(lambda tx: events.newest(tx, runs.find(tx, run).id))
     cursor = newest if start is None else start
-    stream = sse.stream_run(context, request, run, cursor, with_data=caller.role in WATCHERS)
+    admission = _admission(request, cache, caller)
+    stream = sse.stream_run(context, request, admission, run, cursor, with_data=caller.role in WATCHERS)
     return StreamingResponse(stream, media_type="text/event-stream")
 
 
@@ -64,6 +68,17 @@ async def stream_events(
         }
     },
 )
-async def stream_changes(request: Request, context: Ctx, _: Allowed) -> StreamingResponse:
+async def stream_changes(request: Request, context: Ctx, cache: Cached, caller: Allowed) -> StreamingResponse:
     """Stream a message whenever any run has changed, at most one a second."""
-    return StreamingResponse(sse.stream_changes(context, request), media_type="text/event-stream")
+    admission = _admission(request, cache, caller)
+    return StreamingResponse(sse.stream_changes(context, request, admission), media_type="text/event-stream")
+
+
+def _admission(request: Request, cache: CredentialCache, caller: Caller) -> Recheck:
+    """Return the check that the caller may still read the stream, in the role in which it was opened."""
+
+    async def check() -> None:
+        if (await readmit(request, cache)).role != caller.role:
+            raise errors.Forbidden("Your role has changed; open the stream again.")
+
+    return Recheck(check)

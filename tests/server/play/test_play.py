@@ -239,14 +239,22 @@ def test_an_answered_demonstration_is_offered_and_played_no_more(play: Play) -> 
         assert ending(socket)[0] == 4409
 
 
-def test_play_ends_with_the_lease(play: Play, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("waypost_server.play.routes.RECHECK_SECONDS", 0)
+def test_play_ends_with_the_lease(play: Play) -> None:
     with play.both() as (page, stage):
         play.service.annotator.release(play.held)
-        say(page, MOVES)
         assert ending(page)[0] == 4409
         with pytest.raises(TimeoutError):
             stage.recv(timeout=0.2)
+
+
+def test_sockets_where_nothing_is_said_close_within_5_seconds_of_a_revocation(play: Play) -> None:
+    with play.both() as (page, stage):
+        start = time.monotonic()
+        play.service.admin.change(play.service.annotator, active=False)
+        play.service.admin.change(play.service.learner, role="viewer")
+        assert ending(page)[0] == 4401
+        assert ending(stage)[0] == 4403
+        assert time.monotonic() < start + 5
 
 
 # --- what is refused

@@ -173,3 +173,21 @@ def test_a_change_that_is_committed_after_a_newer_one_is_announced_too(cluster: 
             slow.commit()
             assert next(line for line in lines if line.startswith("data: ")) == newer
     engine.dispose()
+
+
+@pytest.mark.parametrize("change", [{"active": False}, {"role": "annotator"}])
+@pytest.mark.parametrize("path", ["/runs/{run}/events", "/events"])
+def test_a_stream_without_news_ends_within_5_seconds_of_a_revocation(
+    sqlite_url: str, start_server: Start, change: dict[str, Any], path: str
+) -> None:
+    served = start_server(Settings(database=sqlite_url, poll_seconds=60))
+    with httpx2.Client(base_url=served.url, timeout=30) as client:
+        service = Service(client, served.db)
+        run = service.learner.create_run()
+        with client.stream("GET", API + path.format(run=run), headers=service.viewer.headers) as reply:
+            lines = reply.iter_lines()
+            assert next(lines) == "retry: 1000"
+            start = time.monotonic()
+            service.admin.change(service.viewer, **change)
+            ended = list(lines) is not None and time.monotonic() - start
+        assert 0 < ended < 5
