@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import asdict
 from datetime import UTC, datetime
+from pathlib import Path
 from typing import Annotated, NoReturn, get_args
 
 import typer
@@ -15,7 +16,7 @@ from waypost import wire
 from waypost_server import errors, serving
 from waypost_server.app import create_app
 from waypost_server.auth import sessions, tokens
-from waypost_server.db import engine
+from waypost_server.db import backup, checking, migration
 from waypost_server.db.engine import BadDatabase, Database
 from waypost_server.db.schema import NewerStore, WrongSchema
 from waypost_server.gold.practice import BadPractice
@@ -71,7 +72,7 @@ def serve_app(settings: Settings, host: str, port: int, *, login_link: bool) -> 
     Print a login link for an administrator if `login_link` is true or if none has ever logged in.
 
     Raises:
-        CannotServe, BadDatabase, NewerStore: with one sentence for the user.
+        CannotServe, BadDatabase, NewerStore, CannotBackUp: with one sentence for the user.
     """
     with closing(serving.bind(host, port)) as bound:
         _serve(settings, host, bound, login_link)
@@ -80,7 +81,9 @@ def serve_app(settings: Settings, host: str, port: int, *, login_link: bool) -> 
 def _serve(settings: Settings, host: str, bound: socket.socket, login_link: bool) -> None:
     named = () if host in {"0.0.0.0", "::"} else (host,)  # noqa: S104 - compared, not bound
     chosen = settings.model_copy(update={"hosts": (*settings.hosts, *named)})
-    engine.migrate(chosen.database)
+    done = migration.migrate(chosen.database)
+    if done.backup is not None:
+        typer.echo(f"The store is of an earlier version: backed up to {done.backup}, and migrated.")
     with closing(Database(chosen.database)) as db:
         welcome = _welcome(db, serving.url_of(bound), chosen.link_seconds, login_link)
     app = create_app(chosen)  # before the link is printed: while it runs, pydantic sometimes swallows a Ctrl-C
@@ -118,23 +121,67 @@ def serve(
     except ValidationError as error:
         first = error.errors()[0]
         refuse(f"The setting {'.'.join(map(str, first['loc']))} is not valid: {first['msg']}.")
-    except (serving.CannotServe, BadDatabase, NewerStore, BadPractice) as error:
+    except (serving.CannotServe, BadDatabase, NewerStore, BadPractice, backup.CannotBackUp) as error:
         refuse(str(error))
 
 
 @app.command()
 def migrate(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
-    """Bring a store up to this version's schema. Back it up first: there is no way back."""
+    """Bring a store up to this version's schema. Of an SQLite store, a backup is made first: there is no way back."""
     try:
-        done = engine.migrate(database)
-    except (BadDatabase, NewerStore) as error:
+        found = migration.migrate(database)
+    except (BadDatabase, NewerStore, backup.CannotBackUp) as error:
         refuse(str(error))
+    done = found.migrated
+    if found.backup is not None and not as_json:
+        typer.echo(f"Backed up to {found.backup}.")
     if as_json:
         typer.echo(json.dumps(asdict(done)))
     elif done.before == done.after:
         typer.echo(f"The store already has schema {done.after}.")
     else:
         typer.echo(f"The store has schema {done.after} now; before, it {_had(done.before)}.")
+
+
+@app.command()
+def check(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
+    """Check a store: its file, its ledger, its leases. It only reads, so servers may use the store meanwhile."""
+    with opened(database) as db:
+        results = db.read_now(checking.check)
+    if as_json:
+        typer.echo(json.dumps([asdict(result) for result in results]))
+    else:
+        for result in results:
+            typer.echo(f"{'WRONG' if result.n_faults else 'ok':<6}{result.fact}{_faults(result)}")
+    if any(result.n_faults for result in results):
+        raise typer.Exit(1)
+
+
+def _faults(result: checking.Result) -> str:
+    if not result.n_faults:
+        return ""
+    more = result.n_faults - len(result.faults)
+    return f" Not so: {', '.join(result.faults)}{f' and {more} more' if more else ''}."
+
+
+@app.command("backup")
+def back_up(file: Path, database: DatabaseOption = DEFAULT_DATABASE) -> None:
+    """Back up a store to a new file. Servers may use the store meanwhile."""
+    try:
+        backup.back_up(database, file)
+    except (BadDatabase, backup.CannotBackUp) as error:
+        refuse(str(error))
+    typer.echo(f"Backed up to {file}. `waypost restore {file}` restores it.")
+
+
+@app.command()
+def restore(file: Path, database: DatabaseOption = DEFAULT_DATABASE) -> None:
+    """Restore a backup: as a new SQLite file, or in an empty PostgreSQL database."""
+    try:
+        backup.restore(file, database)
+    except (BadDatabase, backup.CannotBackUp) as error:
+        refuse(str(error))
+    typer.echo("Restored. `waypost check` checks it.")
 
 
 def _had(schema: str | None) -> str:

@@ -48,12 +48,12 @@ def create(engine: Engine) -> None:
         NewerStore, OlderStore: the store has another schema.
     """
     with engine.begin() as conn:
-        before, newest = _lock(conn), _newest()
+        before, ours = _lock(conn), newest()
         if before is None:
             _upgrade(conn)
-        elif before != newest:
+        elif before != ours:
             raise OlderStore(
-                f"The store has schema {before}, and this version of Waypost uses {newest}: back it up, stop its "
+                f"The store has schema {before}, and this version of Waypost uses {ours}: stop its "
                 f"servers, and run `waypost migrate --database {engine.url.render_as_string()}`."
             )
 
@@ -67,10 +67,11 @@ def migrate(engine: Engine) -> Migrated:
     with engine.begin() as conn:
         before = _lock(conn)
         _upgrade(conn)
-    return Migrated(before, _newest())
+    return Migrated(before, newest())
 
 
-def _newest() -> str:
+def newest() -> str:
+    """Return the schema of this version."""
     return str(ScriptDirectory.from_config(config()).get_current_head())
 
 

@@ -1,0 +1,178 @@
+"""Checks a store: its file, and every fact that it holds twice. It only reads, from one moment, beside running servers.
+
+A check is a statement that selects what is wrong, so a sound store selects nothing.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sqlalchemy import Select, and_, case, func, or_, select, text
+
+from waypost_server.db.tables import IS_LIVE, answers, assignments, gold, gold_showings, ledger, queries, runs
+from waypost_server.db.transaction import Tx
+
+SHOWN = 5  # faults that a result names
+
+
+@dataclass(frozen=True)
+class Result:
+    """The result of one check.
+
+    Args:
+        fact: what should hold, as a sentence.
+        faults: what does not hold, at most `SHOWN`; empty if all is well.
+        n_faults: how many there are in all.
+    """
+
+    fact: str
+    faults: tuple[str, ...]
+    n_faults: int
+
+
+def _units(*conditions: Any) -> Any:
+    total = func.coalesce(func.sum(ledger.c.units), 0)
+    return select(total).where(*conditions).scalar_subquery()
+
+
+_counting = answers.c.id == queries.c.answer_id
+_unanswered = queries.c.state.in_(("open", "leased"))
+_reserved = (
+    select(func.coalesce(func.sum(queries.c.reserve), 0))
+    .where(queries.c.run_id == runs.c.id, _unanswered)
+    .correlate(runs)
+    .scalar_subquery()
+)
+_answered_units = (
+    select(func.coalesce(func.sum(answers.c.units), 0))
+    .select_from(queries.join(answers, _counting))
+    .where(queries.c.run_id == runs.c.id)
+    .correlate(runs)
+    .scalar_subquery()
+)
+_live = select(func.count()).where(assignments.c.query_id == queries.c.id, IS_LIVE).correlate(queries).scalar_subquery()
+_charges = (
+    select(func.count())
+    .where(ledger.c.answer_id == answers.c.id, ledger.c.entry == "charge")
+    .correlate(answers)
+    .scalar_subquery()
+)
+_own = runs.alias("own")
+_shadow = runs.alias("shadow")
+
+CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
+    (
+        "What a run has spent is what the ledger says.",
+        "run",
+        select(runs.c.id).where(runs.c.spent != _units(ledger.c.run_id == runs.c.id)),
+    ),
+    (
+        "What a run has spent is the cost of the answers that count.",
+        "run",
+        select(runs.c.id).where(runs.c.gold_of.is_(None), runs.c.spent != _answered_units),
+    ),
+    (
+        "What a run has reserved is for its queries without an answer.",
+        "run",
+        select(runs.c.id).where(runs.c.reserved != _reserved),
+    ),
+    (
+        "An answer is charged once, and refunded if it is retracted. Late and gold answers cost nothing.",
+        "answer",
+        select(answers.c.id)
+        .join(queries, queries.c.id == answers.c.query_id)
+        .join(runs, runs.c.id == queries.c.run_id)
+        .where(
+            or_(
+                _units(ledger.c.answer_id == answers.c.id)
+                != case((and_(_counting, runs.c.gold_of.is_(None)), answers.c.units), else_=0),
+                _charges != case((or_(answers.c.revision.is_(None), runs.c.gold_of.is_not(None)), 0), else_=1),
+            )
+        ),
+    ),
+    (
+        "An entry of the ledger has the run, query, kind and episode of its answer.",
+        "entry",
+        select(ledger.c.id)
+        .join(answers, answers.c.id == ledger.c.answer_id)
+        .join(queries, queries.c.id == answers.c.query_id)
+        .where(
+            or_(
+                ledger.c.run_id != queries.c.run_id,
+                ledger.c.query_id != queries.c.id,
+                ledger.c.kind != queries.c.kind,
+                ledger.c.episode != queries.c.episode,
+            )
+        ),
+    ),
+    (
+        "The answer that counts for a query was given to that query, in its present revision.",
+        "query",
+        select(queries.c.id)
+        .join(answers, _counting)
+        .where(
+            or_(
+                answers.c.query_id != queries.c.id,
+                answers.c.run_id != queries.c.run_id,
+                answers.c.revision.is_distinct_from(queries.c.revision),
+            )
+        ),
+    ),
+    (
+        "A query is leased exactly as long as one assignment of it is live.",
+        "query",
+        select(queries.c.id).where(_live != case((queries.c.state == "leased", 1), else_=0)),
+    ),
+    (
+        "An assignment has ended with an answer if it has one that was in time.",
+        "assignment",
+        select(assignments.c.id)
+        .outerjoin(answers, and_(answers.c.assignment_id == assignments.c.id, answers.c.revision.is_not(None)))
+        .where((assignments.c.state == "answered") != answers.c.id.is_not(None)),
+    ),
+    (
+        "A finished run has no query without an answer.",
+        "run",
+        select(runs.c.id)
+        .distinct()
+        .join(queries, queries.c.run_id == runs.c.id)
+        .where(runs.c.state == "finished", _unanswered),
+    ),
+    (
+        "A query has the priority of its run.",
+        "query",
+        select(queries.c.id)
+        .join(runs, runs.c.id == queries.c.run_id)
+        .where(runs.c.gold_of.is_(None), queries.c.run_priority != runs.c.priority),
+    ),
+    (
+        "A gold query is shown in the shadow of its run.",
+        "query",
+        select(gold_showings.c.query_id.label("id"))
+        .join(gold, gold.c.id == gold_showings.c.gold_id)
+        .join(queries, queries.c.id == gold_showings.c.query_id)
+        .join(_shadow, _shadow.c.id == queries.c.run_id)
+        .where(_shadow.c.gold_of.is_distinct_from(gold.c.run_id)),
+    ),
+)
+
+
+def check(tx: Tx) -> list[Result]:
+    """Check the whole store, as it was when the transaction began."""
+    found = [_result(tx, *one) for one in CHECKS]
+    return [*_file(tx), *found] if tx.one_writer else found
+
+
+def _result(tx: Tx, fact: str, what: str, wrong: Select[Any]) -> Result:
+    every = wrong.subquery()
+    n = int(tx.conn.execute(select(func.count()).select_from(every)).scalar_one())
+    shown = tx.conn.execute(select(every.c.id).order_by(every.c.id).limit(SHOWN)).scalars() if n else ()
+    return Result(fact, tuple(f"{what} {one}" for one in shown), n)
+
+
+def _file(tx: Tx) -> list[Result]:
+    """Check an SQLite file. PostgreSQL checks its own files, and does not let a foreign key point to nothing."""
+    damage = [row[0] for row in tx.conn.execute(text("PRAGMA integrity_check")) if row[0] != "ok"]
+    lost = [f"{row[0]} {row[1]} has no {row[2]}" for row in tx.conn.execute(text("PRAGMA foreign_key_check"))]
+    facts = (("The file is sound.", damage), ("What a row refers to exists.", lost))
+    return [Result(fact, tuple(faults[:SHOWN]), len(faults)) for fact, faults in facts]

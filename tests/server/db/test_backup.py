@@ -1,0 +1,117 @@
+"""Backups: whole and of one moment, also while a server writes; a backup that was broken off leaves no file."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.server.kit import Service, in_process, make_older_store, query, schema_of
+from typer.testing import CliRunner
+
+from waypost_server.cli import app
+
+
+def run(*arguments: str, status: int = 0) -> str:
+    done = CliRunner().invoke(app, list(arguments))
+    assert done.exit_code == status, done.output
+    return done.output.strip()
+
+
+@pytest.fixture
+def elsewhere(database_url: str, tmp_path: Path, request: pytest.FixtureRequest) -> str:
+    """The URL of a store to restore to: a new file, or an empty database."""
+    if database_url.startswith("sqlite"):
+        return f"sqlite:///{tmp_path / 'restored.db'}"
+    return str(request.getfixturevalue("cluster").create())
+
+
+def answer_all(service: Service, stop: threading.Event) -> None:
+    run = service.learner.create_run()
+    for ordinal in range(10_000):
+        service.learner.ask(run, query(ordinal=ordinal))
+        service.annotator.answer(service.annotator.lease())
+        if stop.is_set():
+            return
+
+
+def test_what_is_backed_up_while_a_server_writes_is_restored_whole(
+    database_url: str, elsewhere: str, tmp_path: Path
+) -> None:
+    stop = threading.Event()
+    with in_process(database_url) as service:
+        writing = threading.Thread(target=answer_all, args=[service, stop])
+        writing.start()
+        time.sleep(0.5)
+        for number in range(3):
+            assert "Backed up" in run("backup", str(tmp_path / f"{number}"), "--database", database_url)
+        stop.set()
+        writing.join()
+        spent = service.viewer.get("/runs")["runs"][0]["spent"]
+    run("restore", str(tmp_path / "2"), "--database", elsewhere)
+    assert "WRONG" not in run("check", "--database", elsewhere)
+    with in_process(elsewhere) as restored:
+        assert 0 < restored.viewer.get("/runs")["runs"][0]["spent"] <= spent
+
+
+def test_a_backup_replaces_nothing(database_url: str, tmp_path: Path) -> None:
+    with in_process(database_url):
+        pass
+    (tmp_path / "mine").write_text("precious")
+    assert "exists" in run("backup", str(tmp_path / "mine"), "--database", database_url, status=2)
+    assert (tmp_path / "mine").read_text() == "precious"
+    assert [one.name for one in tmp_path.iterdir() if one.name.startswith(".mine")] == []
+
+
+def test_nothing_is_restored_over_a_store(database_url: str, tmp_path: Path) -> None:
+    with in_process(database_url) as service:
+        service.learner.create_run(name="kept")
+        run("backup", str(tmp_path / "backup"), "--database", database_url)
+        said = run("restore", str(tmp_path / "backup"), "--database", database_url, status=2)
+        assert "exists" in said
+        assert service.viewer.get("/runs")["runs"][0]["name"] == "kept"
+    assert "WRONG" not in run("check", "--database", database_url)
+
+
+@pytest.mark.parametrize("content", [b"", b"not a store", b"SQLite format 3\x00" + bytes(4_000)])
+def test_a_file_that_is_no_backup_is_refused(sqlite_url: str, tmp_path: Path, content: bytes) -> None:
+    (tmp_path / "file").write_bytes(content)
+    assert "not a sound backup" in run("restore", str(tmp_path / "file"), "--database", sqlite_url, status=2)
+    assert not Path(sqlite_url.removeprefix("sqlite:///")).exists()
+
+
+def test_what_does_not_exist_is_neither_backed_up_nor_restored(sqlite_url: str, tmp_path: Path) -> None:
+    assert "no store" in run("backup", str(tmp_path / "backup"), "--database", sqlite_url, status=2)
+    assert "no file" in run("restore", str(tmp_path / "nothing"), "--database", sqlite_url, status=2)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_backup_that_is_killed_leaves_no_file_of_its_name(sqlite_url: str, tmp_path: Path) -> None:
+    with in_process(sqlite_url) as service:
+        run_id = service.learner.create_run()
+        service.learner.ask(run_id, *(query(ordinal=n, instance={"lava": ["x" * 1_000] * 20}) for n in range(200)))
+    program = "import sqlite3, time; from waypost_server.db import backup; import pathlib, sys; "
+    slow = "backup._to_disk = lambda _: (print('written', flush=True), time.sleep(60)); "
+    call = "backup.back_up(sys.argv[1], pathlib.Path(sys.argv[2]))"
+    command: list[Any] = [sys.executable, "-c", program + slow + call, sqlite_url, tmp_path / "backup"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "written\n"
+        os.kill(process.pid, signal.SIGKILL)
+    assert not (tmp_path / "backup").exists()
+    run("backup", str(tmp_path / "backup"), "--database", sqlite_url)
+
+
+def test_an_older_store_is_backed_up_before_it_is_migrated(sqlite_url: str, tmp_path: Path) -> None:
+    make_older_store(sqlite_url)
+    older = schema_of(sqlite_url)
+    said = run("migrate", "--database", sqlite_url)
+    (copy,) = tmp_path.glob("*.before-*")
+    assert str(copy) in said
+    assert schema_of(f"sqlite:///{copy}") == older != schema_of(sqlite_url)
+    run("migrate", "--database", sqlite_url)
+    assert len(list(tmp_path.glob("*.before-*"))) == 1, "a store of this version needs no copy"

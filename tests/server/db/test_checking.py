@@ -1,0 +1,121 @@
+"""`waypost check`: a store that was used in every way is sound, and each kind of damage is named."""
+
+import json
+
+import pytest
+from sqlalchemy import Connection, create_engine, text
+from tests.server.kit import Service, in_process, query
+from typer.testing import CliRunner
+
+from waypost_server.cli import app
+
+
+def use(service: Service) -> None:
+    """Ask, answer, retract, come too late, skip, release, cancel, and answer gold queries."""
+    run = service.learner.create_run(budget=1_000)
+    service.learner.ask(run, *(query(ordinal=n) for n in range(6)))
+    held = service.annotator.lease()
+    service.annotator.answer(held)
+    again = service.annotator.retract(held)
+    service.annotator.answer(again, {"kind": "inspect_full", "verdict": "fail"})
+    service.annotator.answer(service.annotator.lease())
+    held = service.annotator.lease()
+    service.annotator.answer(held)
+    service.annotator.retract(held)
+    service.annotator.release(service.annotator.lease(), skip=True)
+    service.learner.patch(run, priority=3)
+    known = {"kind": "inspect_full", "verdict": "pass"}
+    gold = {"known": [{"ask": query(episode=9), "known": known}]}
+    service.learner.post(f"/runs/{run}/gold", gold)
+    service.learner.patch(run, gold_rate=0.5)
+    for _ in range(2):
+        service.annotator.answer(service.annotator.lease())
+    done = service.learner.create_run()
+    service.learner.ask(done, query(), query(ordinal=1))
+    service.annotator.answer(service.annotator.lease(run=done))
+    service.learner.patch(done, state="finished")
+
+
+@pytest.fixture
+def used(database_url: str) -> str:
+    """The URL of a store that was used."""
+    with in_process(database_url) as service:
+        use(service)
+    return database_url
+
+
+def check(url: str, status: int = 0) -> list[dict[str, object]]:
+    done = CliRunner().invoke(app, ["check", "--json", "--database", url])
+    assert done.exit_code == status, done.output
+    results: list[dict[str, object]] = json.loads(done.output)
+    return results
+
+
+def test_a_store_that_was_used_in_every_way_is_sound(used: str) -> None:
+    assert [result["n_faults"] for result in check(used)] == [0] * (13 if used.startswith("sqlite") else 11)
+
+
+def test_it_says_what_holds_and_what_does_not(used: str) -> None:
+    done = CliRunner().invoke(app, ["check", "--database", used])
+    assert "ok    What a run has spent is what the ledger says." in done.output
+    damage(used, "UPDATE runs SET spent = spent + 1 WHERE gold_of IS NULL")
+    done = CliRunner().invoke(app, ["check", "--database", used])
+    assert done.exit_code == 1
+    assert "WRONG What a run has spent is what the ledger says. Not so: run " in done.output
+
+
+def damage(url: str, statement: str) -> None:
+    """Change a store behind the server's back, whatever its constraints and triggers say."""
+    engine = create_engine(url.replace("postgresql:", "postgresql+psycopg:"))
+    with engine.connect() as conn:
+        unguard(conn)
+        conn.execute(text(statement))
+        conn.commit()
+    engine.dispose()
+
+
+def unguard(conn: Connection) -> None:
+    if conn.dialect.name == "sqlite":
+        conn.execute(text("PRAGMA ignore_check_constraints = ON"))
+        for (trigger,) in conn.execute(text("SELECT name FROM sqlite_master WHERE type = 'trigger'")).all():
+            conn.execute(text(f"DROP TRIGGER {trigger}"))
+        conn.execute(text("DROP INDEX uq_assignments_live"))
+    else:
+        for table in ("answers", "ledger", "events", "queries", "assignments", "runs"):
+            conn.execute(text(f"ALTER TABLE {table} DISABLE TRIGGER ALL"))
+        checks = conn.execute(
+            text("SELECT conrelid::regclass, conname FROM pg_constraint WHERE contype = 'c' AND conrelid != 0")
+        ).all()
+        for table, name in checks:
+            conn.execute(text(f"ALTER TABLE {table} DROP CONSTRAINT {name}"))
+
+
+ONE = "(SELECT min(id) FROM queries WHERE state = 'answered' AND episode = 0)"
+DAMAGES = {
+    "UPDATE runs SET spent = spent - 1 WHERE spent > 0": "What a run has spent is the cost of the answers that count.",
+    "UPDATE runs SET reserved = reserved + 1": "What a run has reserved is for its queries without an answer.",
+    "UPDATE ledger SET units = units + 1 WHERE entry = 'charge'": "An answer is charged once",
+    "DELETE FROM ledger WHERE entry = 'refund'": "An answer is charged once",
+    "UPDATE ledger SET episode = 7": "An entry of the ledger has the run",
+    f"UPDATE queries SET revision = revision + 1 WHERE id = {ONE}": "The answer that counts for a query was given to",
+    "UPDATE queries SET state = 'open' WHERE state = 'leased'": "A query is leased exactly as long",
+    "UPDATE assignments SET state = 'released' WHERE state = 'answered'": "An assignment has ended with an answer",
+    "UPDATE runs SET state = 'finished' WHERE state = 'running'": "A finished run has no query without an answer.",
+    "UPDATE queries SET run_priority = 9 WHERE state = 'open'": "A query has the priority of its run.",
+    "UPDATE probes SET query_id = (SELECT min(id) FROM queries)": "A gold query is shown in the shadow of its run.",
+}
+
+
+@pytest.mark.parametrize(("statement", "fact"), DAMAGES.items(), ids=[str(n) for n in range(len(DAMAGES))])
+def test_each_kind_of_damage_is_named(used: str, statement: str, fact: str) -> None:
+    damage(used, statement)
+    wrong = [str(result["fact"]) for result in check(used, status=1) if result["n_faults"]]
+    assert any(one.startswith(fact) for one in wrong), wrong
+
+
+def test_a_row_that_refers_to_nothing_is_named(sqlite_url: str) -> None:
+    with in_process(sqlite_url) as service:
+        use(service)
+    damage(sqlite_url, "DELETE FROM users WHERE name = 'abe'")
+    (wrong,) = [result for result in check(sqlite_url, status=1) if result["n_faults"]]
+    assert wrong["fact"] == "What a row refers to exists."
