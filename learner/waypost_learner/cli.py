@@ -209,6 +209,9 @@ def demo(
     instances: Annotated[
         str | None, typer.Option(help="Instances: a name or a file.", show_default="corners for the maze, else random")
     ] = None,
+    wait: Annotated[
+        bool, typer.Option(help="Wait at the first question until somebody opens the web app; --no-wait for scripts.")
+    ] = True,
 ) -> None:
     """Run a server, a learner and a bot on this machine, and print a link that logs you in."""
     with learner_errors():
@@ -217,7 +220,8 @@ def demo(
         from waypost_learner.experts.oracle import OracleExpert
 
         OracleExpert(find_domain(domain))  # refuses a domain that the bot could not answer about
-        run_demo(port, database, episodes, domain, instances or ("corners" if domain == "maze" else "random"))
+        named = instances or ("corners" if domain == "maze" else "random")
+        run_demo(port, database, episodes, domain, named, wait)
 
 
 @app.command()

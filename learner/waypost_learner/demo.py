@@ -1,6 +1,7 @@
 """`waypost demo`: a server, a learner and an oracle bot on this machine.
 
-The bot answers a query only after leaving it to you for some seconds.
+The run waits at its first question until somebody opens the web app, so that a newcomer sees the learner learn. Then
+the bot answers a query only after leaving it to you for some seconds.
 """
 
 import os
@@ -21,17 +22,18 @@ from waypost_server.auth import tokens
 from waypost_server.cli import login_url
 from waypost_server.db.engine import BadDatabase, Database
 from waypost_server.db.schema import WrongSchema
-from waypost_server.db.tables import queries
+from waypost_server.db.tables import presence
+from waypost_server.db.tables import users as annotators
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
 DEFER_SECONDS = 25.0  # for which the bot leaves a query to a person who is working
-THINKING_SECONDS = 1.0  # the bot waits before each answer, so that the run does not end before the link is opened
+THINKING_SECONDS = 1.0  # the bot waits before each answer, so that you can follow the learner
 LINK_SECONDS = 86_400.0  # for which the login link is valid
-PATIENCE_SECONDS = 120.0  # after which the link is printed even if the learner has asked nothing yet
+BOT = "oracle-bot"
 
 
-def run_demo(port: int, database: Path, episodes: int, domain: str, instances: str) -> None:
+def run_demo(port: int, database: Path, episodes: int, domain: str, instances: str, wait: bool) -> None:
     """Serve until interrupted, with a learner that asks queries and a bot that answers what people leave.
 
     Args:
@@ -40,6 +42,7 @@ def run_demo(port: int, database: Path, episodes: int, domain: str, instances: s
         episodes: the number of episodes of the learner's run.
         domain: the domain of the learner's run; it has an oracle.
         instances: the name of the run's instances.
+        wait: whether the bot answers questions only after somebody has opened the web app.
 
     Raises:
         ValueError: the server cannot start; the message is one sentence for the user.
@@ -64,21 +67,25 @@ def run_demo(port: int, database: Path, episodes: int, domain: str, instances: s
             stack.callback(process.terminate)
             return process
 
+        def start_bot(*options: str) -> None:
+            start(BOT, "annotator", "oracle", "--domain", domain, "--defer", str(DEFER_SECONDS), *options)
+
+        # Without demonstrations, because the bot gives the few that the learner begins with.
+        link = login_url(served.db, served.url, "you", "admin", LINK_SECONDS, without="hier_demo")
         typer.echo(f"Waypost is at {served.url}; answers are kept in {database}.")
-        pace = ("--defer", str(DEFER_SECONDS), "--seconds", str(THINKING_SECONDS))
-        start("oracle-bot", "annotator", "oracle", "--domain", domain, *pace)
+        typer.echo(f"Open this link; it works once: {link}")
+        typer.echo("Answer with the keyboard; the bot answers the queries that you leave. Press Ctrl-C to stop.")
+        began = time.time()
+        start_bot("--kinds", "hier_demo")
         train = ("train", "hg-dagger", "--expert", "queue", "--name", "demo")
         values = ("--domain", domain, "--instances", instances, "--episodes", str(episodes))
         checkpoints = ("--checkpoints", str(database.with_name(f"{database.name}.checkpoints")))
         learner = start("demo-learner", "learner", *train, *values, *checkpoints)
         try:
-            typer.echo("First a bot demonstrates a few episodes to a learner; then the learner asks queries.")
-            wait_for_queries(served.db, learner)
-            typer.echo("Answer with the keyboard; the bot answers the queries that you leave.")
-            typer.echo(
-                f"Open this link; it works once: {login_url(served.db, served.url, 'you', 'admin', LINK_SECONDS)}"
-            )
-            typer.echo("Press Ctrl-C to stop.")
+            if wait:
+                typer.echo("The learner starts. It waits at its first question until you have opened the link.")
+                wait_for_somebody(served.db, began, learner)
+            start_bot("--seconds", str(THINKING_SECONDS))
             if learner.wait():
                 typer.echo(f"The learner stopped before its end; {log.name} says why.", err=True)
             else:
@@ -89,13 +96,12 @@ def run_demo(port: int, database: Path, episodes: int, domain: str, instances: s
             typer.echo("Stopped.")
 
 
-def wait_for_queries(db: Database, learner: subprocess.Popen[bytes]) -> None:
-    """Wait until the learner asks a query that is not a demonstration, ends, or `PATIENCE_SECONDS` have passed."""
-    began = time.time()
-    asked = exists().where(queries.c.kind != "hier_demo", queries.c.created_at >= began)
-    while learner.poll() is None and time.time() < began + PATIENCE_SECONDS:
-        if db.read_now(lambda tx: bool(tx.conn.execute(select(asked)).scalar_one())):
-            return
+def wait_for_somebody(db: Database, since: float, learner: subprocess.Popen[bytes]) -> None:
+    """Wait until somebody other than the bot asks for a query, or the learner ends."""
+    somebody = exists().where(
+        presence.c.user_id == annotators.c.id, annotators.c.name != BOT, presence.c.asked_at >= since
+    )
+    while learner.poll() is None and not db.read_now(lambda tx: bool(tx.conn.execute(select(somebody)).scalar_one())):
         time.sleep(0.2)
 
 

@@ -59,11 +59,17 @@ def opened(url: str) -> Iterator[Database]:
         db.close()
 
 
-def login_url(db: Database, base: str, name: str, role: wire.Role, seconds: float) -> str:
-    """Return a one-time link that logs in the user with this name; create the user if there is none."""
+def login_url(
+    db: Database, base: str, name: str, role: wire.Role, seconds: float, without: wire.Kind | None = None
+) -> str:
+    """Return a one-time link that logs in the user with this name; create the user if there is none.
+
+    The web app that the link opens does not ask for queries of the kind `without`.
+    """
     user = db.write_now(lambda tx: users.ensure_user(tx, name, role))
     link = db.write_now(lambda tx: sessions.create_login_link(tx, user.id, seconds))
-    return f"{base.rstrip('/')}/login#{link.code}"
+    search = "" if without is None else f"?without={without}"
+    return f"{base.rstrip('/')}/login{search}#{link.code}"
 
 
 def serve_app(settings: Settings, host: str, port: int, *, login_link: bool) -> None:

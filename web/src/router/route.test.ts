@@ -2,9 +2,10 @@ import { expect, it } from 'vitest';
 import { parseRoute, searchWith, wholeNumber } from './route';
 
 it.each([
-  ['/', '', { view: 'work', run: null }],
-  ['/work', '?run=a%20b', { view: 'work', run: 'a b' }],
-  ['/work/', '', { view: 'work', run: null }],
+  ['/', '', { view: 'work', run: null, without: null }],
+  ['/work', '?run=a%20b', { view: 'work', run: 'a b', without: null }],
+  ['/work', '?without=hier_demo', { view: 'work', run: null, without: 'hier_demo' }],
+  ['/work/', '', { view: 'work', run: null, without: null }],
   ['/runs', '', { view: 'runs' }],
   ['/runs/a%2Fb', '', { view: 'run', run: 'a/b', section: 'overview' }],
   ['/runs/%zz', '', { view: 'run', run: '%zz', section: 'overview' }],

@@ -2,12 +2,19 @@
 
 export type Route =
   | { readonly view: 'login' }
-  | { readonly view: 'work'; readonly run: string | null }
+  | WorkRoute
   | RunsRoute
   | { readonly view: 'gold'; readonly run: string }
   | { readonly view: 'practice' | 'people' | 'me' }
   | { readonly view: 'person'; readonly user: number }
   | { readonly view: 'nowhere' };
+
+/** The work view: the queries of one run, or of all; without one kind, or of every kind. */
+export interface WorkRoute {
+  readonly view: 'work';
+  readonly run: string | null;
+  readonly without: string | null;
+}
 
 export type RunsRoute =
   | { readonly view: 'runs' }
@@ -28,7 +35,10 @@ export function parseRoute(path: string, search: string): Route {
   if (second !== '') return { view: 'nowhere' };
   if (first === 'practice' || first === 'people' || first === 'me') return { view: first };
   if (first === 'login') return { view: 'login' };
-  if (first === 'work' || first === '') return { view: 'work', run: new URLSearchParams(search).get('run') };
+  if (first === 'work' || first === '') {
+    const parameters = new URLSearchParams(search);
+    return { view: 'work', run: parameters.get('run'), without: parameters.get('without') };
+  }
   return { view: 'nowhere' };
 }
 

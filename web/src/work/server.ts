@@ -1,6 +1,12 @@
 // The requests of the work view, except answers: lease a query, renew and release the lease, take an answer back.
 import { api, unwrap } from '../api/client';
-import { KINDS, type Assignment, type LeaseRequest, type Me } from '../api/types';
+import type { Assignment, Kind, LeaseRequest, Me } from '../api/types';
+
+/** Which queries this tab asks for. */
+export interface Wanted {
+  readonly run: string | null; // only this run's queries
+  readonly kinds: readonly Kind[];
+}
 
 /** The proof that this tab holds a lease. */
 export interface LeaseProof {
@@ -18,9 +24,9 @@ export interface WorkServer {
   me(): Promise<Me>;
 }
 
-/** Return a request for the next query of any kind; `wait` is in seconds. */
-export function leaseRequest(run: string | null, tab: string, wait: number, ahead = false): LeaseRequest {
-  return { wait, kinds: [...KINDS], run, defer: 0, ahead, tab };
+/** Return a request for the next query; `wait` is in seconds. */
+export function leaseRequest(wanted: Wanted, tab: string, wait: number, ahead = false): LeaseRequest {
+  return { wait, kinds: [...wanted.kinds], run: wanted.run, defer: 0, ahead, tab };
 }
 
 export function proofOf(assignment: Assignment): LeaseProof {

@@ -6,7 +6,7 @@ import { delay, pause, visible } from '../api/retry';
 import type { Answer, Assignment, Me } from '../api/types';
 import type { Notice } from '../task/notice';
 import { beat, NO_HEARTBEAT, type Heartbeat } from './heartbeat';
-import { leaseRequest, proofOf, type LeaseProof, type WorkServer } from './server';
+import { leaseRequest, proofOf, type LeaseProof, type Wanted, type WorkServer } from './server';
 
 export type Phase = 'loading' | 'waiting' | 'task' | 'sending' | 'offline' | 'signed-out' | 'refused';
 
@@ -37,7 +37,7 @@ export class WorkSession {
 
   readonly #server: WorkServer;
   readonly #sender: AnswerSender;
-  readonly #run: string | null; // only this run's queries
+  readonly #wanted: Wanted;
   readonly #active: () => boolean; // has the annotator done anything since the last call?
   readonly #prepare: (assignment: Assignment) => void; // load the pictures of a query
   readonly #stopListening: () => void;
@@ -56,13 +56,13 @@ export class WorkSession {
   constructor(
     server: WorkServer,
     sender: AnswerSender,
-    run: string | null,
+    wanted: Wanted,
     active: () => boolean,
     prepare: (assignment: Assignment) => void,
   ) {
     this.#server = server;
     this.#sender = sender;
-    this.#run = run;
+    this.#wanted = wanted;
     this.#active = active;
     this.#prepare = prepare;
     this.#stopListening = sender.listen({
@@ -144,7 +144,7 @@ export class WorkSession {
 
   async #send(pending: PendingAnswer): Promise<void> {
     const isNextThere = this.#ahead.length > 0;
-    const next = leaseRequest(this.#run, this.#tab, isNextThere ? 0 : NEXT_SECONDS, isNextThere);
+    const next = leaseRequest(this.#wanted, this.#tab, isNextThere ? 0 : NEXT_SECONDS, isNextThere);
     const receipt = await this.#expecting(this.#sender.send(pending, next));
     if (receipt !== null) this.#sent = [...this.#sent, pending].slice(-UNDO_DEPTH);
     if (receipt?.next) this.#receive(receipt.next);
@@ -219,7 +219,7 @@ export class WorkSession {
     const { signal } = (this.#lookupAhead = new AbortController());
     try {
       const found = await this.#expecting(
-        this.#server.lease(leaseRequest(this.#run, this.#tab, POLL_SECONDS, true), signal),
+        this.#server.lease(leaseRequest(this.#wanted, this.#tab, POLL_SECONDS, true), signal),
       );
       if (found !== null) this.#receive(found);
     } catch {
@@ -244,8 +244,8 @@ export class WorkSession {
       try {
         await visible(signal);
         const found =
-          (await this.#sender.flush(leaseRequest(this.#run, this.#tab, 0))) ??
-          (await this.#server.lease(leaseRequest(this.#run, this.#tab, wait), signal));
+          (await this.#sender.flush(leaseRequest(this.#wanted, this.#tab, 0))) ??
+          (await this.#server.lease(leaseRequest(this.#wanted, this.#tab, wait), signal));
         if (found !== null) {
           this.#receive(found);
           return;

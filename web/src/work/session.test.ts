@@ -2,7 +2,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { AnswerSender, type SendAnswer } from './answers/sender';
 import { Refused, Unreachable } from '../api/client';
-import type { Assignment, LeaseRequest, Me, Receipt } from '../api/types';
+import { KINDS, type Assignment, type LeaseRequest, type Me, type Receipt } from '../api/types';
 import type { LeaseProof, WorkServer } from './server';
 import { WorkSession } from './session.svelte';
 
@@ -74,7 +74,7 @@ describe('a session', () => {
     server.renew.mockImplementation(() => Promise.resolve());
     server.me.mockRejectedValue(new Unreachable());
     const sender = new AnswerSender(answer, sessionStorage, () => undefined);
-    session = new WorkSession(server, sender, null, () => active, prepare);
+    session = new WorkSession(server, sender, { run: null, kinds: KINDS }, () => active, prepare);
   });
   afterEach(() => {
     session.stop();
