@@ -209,9 +209,9 @@ def demo(
     instances: Annotated[
         str | None, typer.Option(help="Instances: a name or a file.", show_default="corners for the maze, else random")
     ] = None,
-    wait: Annotated[
-        bool, typer.Option(help="Wait at the first question until somebody opens the web app; --no-wait for scripts.")
-    ] = True,
+    no_wait: Annotated[
+        bool, typer.Option("--no-wait", help="Do not wait at the first question until somebody opens the web app.")
+    ] = False,
 ) -> None:
     """Run a server, a learner and a bot on this machine, and print a link that logs you in."""
     with learner_errors():
@@ -221,7 +221,7 @@ def demo(
 
         OracleExpert(find_domain(domain))  # refuses a domain that the bot could not answer about
         named = instances or ("corners" if domain == "maze" else "random")
-        run_demo(port, database, episodes, domain, named, wait)
+        run_demo(port, database, episodes, domain, named, wait=not no_wait)
 
 
 @app.command()

@@ -33,7 +33,7 @@ LINK_SECONDS = 86_400.0  # for which the login link is valid
 BOT = "oracle-bot"
 
 
-def run_demo(port: int, database: Path, episodes: int, domain: str, instances: str, wait: bool) -> None:
+def run_demo(port: int, database: Path, episodes: int, domain: str, instances: str, *, wait: bool) -> None:
     """Serve until interrupted, with a learner that asks queries and a bot that answers what people leave.
 
     Args:
