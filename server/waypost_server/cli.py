@@ -88,13 +88,13 @@ def _serve(settings: Settings, host: str, bound: socket.socket, login_link: bool
     named = () if host in {"0.0.0.0", "::"} else (host,)  # noqa: S104 - compared, not bound
     chosen = settings.model_copy(update={"hosts": (*settings.hosts, *named)})
     done = migration.migrate(chosen.database)
-    if done.backup is not None:
-        typer.echo(f"The store is of an earlier version: backed up to {done.backup}, and migrated.")
     with closing(Database(chosen.database)) as db:
         welcome = _welcome(db, serving.url_of(bound), chosen.link_seconds, login_link)
     app = create_app(chosen)  # before the link is printed: while it runs, pydantic sometimes swallows a Ctrl-C
     typer.echo(f"Waypost serves {db.url.render_as_string()} at {serving.url_of(bound)}")
     typer.echo(welcome)
+    if done.backup is not None:
+        typer.echo(f"The store was of an earlier version: it was backed up to {done.backup} and migrated.")
     if chosen.page is None and spa.find() is None:
         typer.echo("The web app is not built; `make web` builds it.")
     serving.foreground(app, bound)

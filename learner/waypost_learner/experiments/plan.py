@@ -255,15 +255,6 @@ _MONTEZUMA = (
         hybrid=True,
         tests="the 20 starts",
     ),
-    Group(
-        "montezuma-paper",
-        "Montezuma's Revenge, the paper's network and values",
-        "Tests: the 20 starts, on which the learner also trained. LO samples: the learner's steps in training.",
-        ("progress-by-subgoal",),
-        (Series(TrainConfig("hg-dagger-q", domain="montezuma", preset="paper", episodes=3_000), "hg-DAgger/Q"),),
-        hybrid=True,
-        tests="the 20 starts",
-    ),
     _room_imitation(
         "montezuma-imitation",
         "Montezuma's Revenge, learned by imitation, every episode inspected",
