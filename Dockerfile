@@ -8,7 +8,7 @@ COPY web/ ./
 RUN npm run build
 
 
-FROM python:3.13-slim AS wheel
+FROM python:3.13-slim-trixie AS wheel
 WORKDIR /src
 RUN python -m venv /opt/waypost
 COPY pyproject.toml README.md LICENSE ./
@@ -32,7 +32,8 @@ RUN /opt/waypost/bin/pip install --no-cache-dir ${TORCH_INDEX_URL:+--index-url "
 RUN /opt/waypost/bin/pip install --no-cache-dir "$(echo /wheels/*.whl)[learner]"
 
 
-FROM python:3.13-slim AS runtime
+# Debian 13, because its PostgreSQL programs are as new as the database of docker-compose.yml (17).
+FROM python:3.13-slim-trixie AS runtime
 RUN useradd --system --uid 10001 --home-dir /data waypost \
  && mkdir /data /tokens \
  && chown waypost /data /tokens
@@ -47,6 +48,12 @@ CMD ["waypost", "--help"]
 
 
 FROM runtime AS server
+# pg_dump and pg_restore, for `waypost backup` and `restore`.
+USER root
+RUN apt-get update \
+ && apt-get install --yes --no-install-recommends postgresql-client \
+ && rm -rf /var/lib/apt/lists/*
+USER waypost
 COPY --from=server-environment /opt/waypost /opt/waypost
 ENV WAYPOST_DATABASE=sqlite:////data/waypost.db
 EXPOSE 8000

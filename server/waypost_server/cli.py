@@ -33,6 +33,7 @@ app.add_typer(token_app, name="token")
 DatabaseOption = Annotated[
     str, typer.Option("--database", envvar="WAYPOST_DATABASE", help="sqlite:///FILE or postgresql://USER@HOST/NAME.")
 ]
+NoBackupOption = Annotated[bool, typer.Option("--no-backup", help="Migrate an older store without a backup.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print the result as one line of JSON.")]
 
 DEFAULT_DATABASE = "sqlite:///waypost.db"
@@ -45,10 +46,10 @@ def refuse(message: str) -> NoReturn:
 
 
 @contextmanager
-def opened(url: str) -> Iterator[Database]:
+def opened(url: str, *, create: bool = True) -> Iterator[Database]:
     """Open a store for one command; an error ends the command with a message of one sentence."""
     try:
-        db = Database(url)
+        db = Database(url, create=create)
     except (BadDatabase, WrongSchema) as error:
         refuse(str(error))
     try:
@@ -72,8 +73,8 @@ def login_url(
     return f"{base.rstrip('/')}/login{search}#{link.code}"
 
 
-def serve_app(settings: Settings, host: str, port: int, *, login_link: bool) -> None:
-    """Migrate the store, and serve it until told to stop.
+def serve_app(settings: Settings, host: str, port: int, *, login_link: bool, with_backup: bool = True) -> None:
+    """Migrate the store after a backup, and serve it until told to stop.
 
     Print a login link for an administrator if `login_link` is true or if none has ever logged in.
 
@@ -81,20 +82,20 @@ def serve_app(settings: Settings, host: str, port: int, *, login_link: bool) -> 
         CannotServe, BadDatabase, NewerStore, CannotBackUp: with one sentence for the user.
     """
     with closing(serving.bind(host, port)) as bound:
-        _serve(settings, host, bound, login_link)
+        _serve(settings, host, bound, login_link, with_backup)
 
 
-def _serve(settings: Settings, host: str, bound: socket.socket, login_link: bool) -> None:
+def _serve(settings: Settings, host: str, bound: socket.socket, login_link: bool, with_backup: bool) -> None:
     named = () if host in {"0.0.0.0", "::"} else (host,)  # noqa: S104 - compared, not bound
     chosen = settings.model_copy(update={"hosts": (*settings.hosts, *named)})
-    done = migration.migrate(chosen.database)
+    done = migration.migrate(chosen.database, with_backup=with_backup)
     with closing(Database(chosen.database)) as db:
         welcome = _welcome(db, serving.url_of(bound), chosen.link_seconds, login_link)
     app = create_app(chosen)  # before the link is printed: while it runs, pydantic sometimes swallows a Ctrl-C
     typer.echo(f"Waypost serves {db.url.render_as_string()} at {serving.url_of(bound)}")
     typer.echo(welcome)
     if done.backup is not None:
-        typer.echo(f"The store was of an earlier version: it was backed up to {done.backup} and migrated.")
+        typer.echo(f"The store was of an earlier version: it was backed up to {done.backup}, and migrated.")
     if chosen.page is None and spa.find() is None:
         typer.echo("The web app is not built; `make web` builds it.")
     serving.foreground(app, bound)
@@ -118,12 +119,13 @@ def serve(
     login_link: Annotated[
         bool, typer.Option("--login-link", help="Print a login link even if an administrator has logged in before.")
     ] = False,
+    no_backup: NoBackupOption = False,
 ) -> None:
     """Serve the API and the web app. Until an administrator has logged in, print a one-time login link."""
     given = {"database": database} | ({} if lease is None else {"lease_seconds": lease})
     try:
         settings = Settings.model_validate(Settings().model_dump() | given)
-        serve_app(settings, host, port, login_link=login_link)
+        serve_app(settings, host, port, login_link=login_link, with_backup=not no_backup)
     except ValidationError as error:
         first = error.errors()[0]
         refuse(f"The setting {'.'.join(map(str, first['loc']))} is not valid: {first['msg']}.")
@@ -132,17 +134,19 @@ def serve(
 
 
 @app.command()
-def migrate(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
-    """Bring a store up to this version's schema. Of an SQLite store, a backup is made first: there is no way back."""
+def migrate(
+    database: DatabaseOption = DEFAULT_DATABASE, no_backup: NoBackupOption = False, as_json: JsonOption = False
+) -> None:
+    """Bring a store up to this version's schema, after a backup: there is no way back."""
     try:
-        found = migration.migrate(database)
+        found = migration.migrate(database, with_backup=not no_backup)
     except (BadDatabase, NewerStore, backup.CannotBackUp) as error:
         refuse(str(error))
     done = found.migrated
     if found.backup is not None and not as_json:
         typer.echo(f"Backed up to {found.backup}.")
     if as_json:
-        typer.echo(json.dumps(asdict(done)))
+        typer.echo(json.dumps(asdict(done) | {"backup": str(found.backup) if found.backup else None}))
     elif done.before == done.after:
         typer.echo(f"The store already has schema {done.after}.")
     else:
@@ -152,22 +156,22 @@ def migrate(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = F
 @app.command()
 def check(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
     """Check a store: its file, its ledger, its leases. It only reads, so servers may use the store meanwhile."""
-    with opened(database) as db:
+    with opened(database, create=False) as db:
         results = db.read_now(checking.check)
     if as_json:
         typer.echo(json.dumps([asdict(result) for result in results]))
     else:
         for result in results:
-            typer.echo(f"{'WRONG' if result.n_faults else 'ok':<6}{result.fact}{_faults(result)}")
+            typer.echo(_line(result))
     if any(result.n_faults for result in results):
         raise typer.Exit(1)
 
 
-def _faults(result: checking.Result) -> str:
+def _line(result: checking.Result) -> str:
     if not result.n_faults:
-        return ""
+        return f"ok    {result.fact}"
     more = result.n_faults - len(result.faults)
-    return f" Not so: {', '.join(result.faults)}{f' and {more} more' if more else ''}."
+    return f"WRONG {result.fact} Not so: {', '.join(result.faults)}{f' and {more} more' if more else ''}."
 
 
 @app.command("backup")
@@ -181,13 +185,25 @@ def back_up(file: Path, database: DatabaseOption = DEFAULT_DATABASE) -> None:
 
 
 @app.command()
-def restore(file: Path, database: DatabaseOption = DEFAULT_DATABASE) -> None:
-    """Restore a backup: as a new SQLite file, or in an empty PostgreSQL database."""
+def restore(
+    file: Path,
+    database: DatabaseOption = DEFAULT_DATABASE,
+    anyway: Annotated[bool, typer.Option("--anyway", help="Restore a store that does not pass the checks.")] = False,
+) -> None:
+    """Restore a backup as a new SQLite file, or in an empty PostgreSQL database, and check it."""
     try:
-        backup.restore(file, database)
-    except (BadDatabase, backup.CannotBackUp) as error:
+        found = backup.restore(file, database, anyway=anyway)
+    except (BadDatabase, WrongSchema, backup.CannotBackUp) as error:
         refuse(str(error))
-    typer.echo("Restored. `waypost check` checks it.")
+    if found.older:
+        typer.echo("Restored. An earlier version wrote it: `waypost migrate` migrates it.")
+    for result in found.wrong:
+        typer.echo(_line(result))
+    if found.wrong:
+        typer.echo("Restored, with these faults.")
+        raise typer.Exit(1)
+    if not found.older:
+        typer.echo("Restored and checked.")
 
 
 def _had(schema: str | None) -> str:

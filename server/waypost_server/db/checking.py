@@ -7,11 +7,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Select, and_, case, func, or_, select, text
+from alembic.autogenerate import compare_metadata
+from alembic.runtime.migration import MigrationContext
+from sqlalchemy import Column, Connection, Select, and_, case, create_engine, func, or_, select, text
 
-from waypost_server.db.tables import IS_LIVE, answers, assignments, gold, gold_showings, ledger, queries, runs
+from waypost_server.db.engine import parse
+from waypost_server.db.tables import (
+    IS_LIVE,
+    answers,
+    assignments,
+    gold,
+    gold_showings,
+    ledger,
+    metadata,
+    queries,
+    runs,
+)
 from waypost_server.db.transaction import Tx
 
+APPEND_ONLY = ("answers", "ledger", "events")  # tables whose rows triggers keep as they are
 SHOWN = 5  # faults that a result names
 
 
@@ -30,25 +44,20 @@ class Result:
     n_faults: int
 
 
+def _sum(column: Column[Any]) -> Select[Any]:
+    return select(func.coalesce(func.sum(column), 0))
+
+
 def _units(*conditions: Any) -> Any:
-    total = func.coalesce(func.sum(ledger.c.units), 0)
-    return select(total).where(*conditions).scalar_subquery()
+    return _sum(ledger.c.units).where(*conditions).scalar_subquery()
 
 
 _counting = answers.c.id == queries.c.answer_id
 _unanswered = queries.c.state.in_(("open", "leased"))
-_reserved = (
-    select(func.coalesce(func.sum(queries.c.reserve), 0))
-    .where(queries.c.run_id == runs.c.id, _unanswered)
-    .correlate(runs)
-    .scalar_subquery()
-)
+_of_run = queries.c.run_id == runs.c.id
+_reserved = _sum(queries.c.reserve).where(_of_run, _unanswered).correlate(runs).scalar_subquery()
 _answered_units = (
-    select(func.coalesce(func.sum(answers.c.units), 0))
-    .select_from(queries.join(answers, _counting))
-    .where(queries.c.run_id == runs.c.id)
-    .correlate(runs)
-    .scalar_subquery()
+    _sum(answers.c.units).select_from(queries.join(answers, _counting)).where(_of_run).correlate(runs).scalar_subquery()
 )
 _live = select(func.count()).where(assignments.c.query_id == queries.c.id, IS_LIVE).correlate(queries).scalar_subquery()
 _charges = (
@@ -70,6 +79,11 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         "What a run has spent is the cost of the answers that count.",
         "run",
         select(runs.c.id).where(runs.c.gold_of.is_(None), runs.c.spent != _answered_units),
+    ),
+    (
+        "A run has spent and reserved no more than its budget.",
+        "run",
+        select(runs.c.id).where(runs.c.spent + runs.c.reserved > runs.c.budget),
     ),
     (
         "What a run has reserved is for its queries without an answer.",
@@ -159,8 +173,21 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
 
 def check(tx: Tx) -> list[Result]:
     """Check the whole store, as it was when the transaction began."""
-    found = [_result(tx, *one) for one in CHECKS]
-    return [*_file(tx), *found] if tx.one_writer else found
+    of_the_file = _file(tx.conn) if tx.one_writer else []  # PostgreSQL checks its own files and foreign keys
+    return [*of_the_file, *_schema(tx.conn), *(_result(tx, *one) for one in CHECKS)]
+
+
+def check_file(url: str) -> list[Result]:
+    """Return what is wrong with an SQLite file of any version; nothing for PostgreSQL, which checks its own files."""
+    store = parse(url)
+    if store.get_backend_name() != "sqlite":
+        return []
+    engine = create_engine(store)
+    try:
+        with engine.connect() as conn:
+            return [one for one in _file(conn) if one.n_faults]
+    finally:
+        engine.dispose()
 
 
 def _result(tx: Tx, fact: str, what: str, wrong: Select[Any]) -> Result:
@@ -170,9 +197,27 @@ def _result(tx: Tx, fact: str, what: str, wrong: Select[Any]) -> Result:
     return Result(fact, tuple(f"{what} {one}" for one in shown), n)
 
 
-def _file(tx: Tx) -> list[Result]:
-    """Check an SQLite file. PostgreSQL checks its own files, and does not let a foreign key point to nothing."""
-    damage = [row[0] for row in tx.conn.execute(text("PRAGMA integrity_check")) if row[0] != "ok"]
-    lost = [f"{row[0]} {row[1]} has no {row[2]}" for row in tx.conn.execute(text("PRAGMA foreign_key_check"))]
-    facts = (("The file is sound.", damage), ("What a row refers to exists.", lost))
-    return [Result(fact, tuple(faults[:SHOWN]), len(faults)) for fact, faults in facts]
+def _file(conn: Connection) -> list[Result]:
+    damage = [row[0] for row in conn.execute(text("PRAGMA integrity_check")) if row[0] != "ok"]
+    lost = [f"{row[0]} {row[1]} has no {row[2]}" for row in conn.execute(text("PRAGMA foreign_key_check"))]
+    return [_told("The file is sound.", damage), _told("What a row refers to exists.", lost)]
+
+
+def _schema(conn: Connection) -> list[Result]:
+    context = MigrationContext.configure(conn, opts={"compare_type": True})
+    differing = [str(one) for one in compare_metadata(context, metadata)]
+    if conn.dialect.name == "sqlite":
+        names = "SELECT name FROM sqlite_master WHERE type = 'trigger'"
+        guards = {f"{table}_no_{verb}" for table in APPEND_ONLY for verb in ("update", "delete")}
+    else:
+        names = "SELECT tgname FROM pg_trigger WHERE NOT tgisinternal AND tgenabled = 'O'"
+        guards = {f"{table}_append_only" for table in APPEND_ONLY}
+    missing = sorted(guards - set(conn.execute(text(names)).scalars()))
+    return [
+        _told("The tables, columns and indexes are those of this version.", differing),
+        _told("No statement can change an answer, an entry of the ledger, or an event.", missing),
+    ]
+
+
+def _told(fact: str, faults: list[str]) -> Result:
+    return Result(fact, tuple(faults[:SHOWN]), len(faults))

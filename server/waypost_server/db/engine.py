@@ -9,6 +9,7 @@ import sqlite3
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any, TypeVar
 
 from sqlalchemy import Connection, Engine, create_engine, event, make_url
@@ -35,17 +36,24 @@ class BadDatabase(Exception):
 
 
 class Database:
-    """An open store with this version's schema, which is created in an empty database."""
+    """An open store with this version's schema."""
 
-    def __init__(self, url: str, committed: Callable[[Topics], None] | None = None) -> None:
-        """Open a store. `committed` is called with the topics of each commit, on PostgreSQL also of other processes.
+    def __init__(self, url: str, committed: Callable[[Topics], None] | None = None, *, create: bool = True) -> None:
+        """Open a store, or create it in an empty database.
+
+        Args:
+            url: the URL of the database.
+            committed: is called with the topics of each commit, on PostgreSQL also of other processes.
+            create: whether to create what does not exist.
 
         Raises:
             BadDatabase, WrongSchema: with one sentence for the operator.
         """
         self.url = parse(url)
         lite = self.url.get_backend_name() == "sqlite"
-        self._engine, _ = _prepared(self.url, schema.create)
+        if lite and not create:
+            _require_file(self.url)
+        self._engine, _ = _prepared(self.url, schema.create if create else schema.require)
         self._read_engine = _sqlite(self.url, writes=False) if lite else _snapshots(self._engine)
         self._readers = ThreadPoolExecutor(READERS, "waypost-read")
         self._notifications = None if lite or committed is None else Notifications(self.url, committed)
@@ -97,13 +105,15 @@ class Database:
         self._engine.dispose()
 
 
-def migrate(url: str) -> schema.Migrated:
+def migrate(url: str, keep: Callable[[], None] = lambda: None) -> schema.Migrated:
     """Bring a store up to this version's schema, or create it in an empty database.
+
+    `keep` is called before a store is changed, while nobody else can migrate it.
 
     Raises:
         BadDatabase, NewerStore: with one sentence for the operator.
     """
-    engine, migrated = _prepared(parse(url), schema.migrate)
+    engine, migrated = _prepared(parse(url), lambda engine: schema.migrate(engine, keep))
     engine.dispose()
     return migrated
 
@@ -116,9 +126,16 @@ def _prepared(url: URL, prepare: Callable[[Engine], T]) -> tuple[Engine, T]:
     except DBAPIError as error:
         engine.dispose()
         raise BadDatabase(f"Cannot open {url.render_as_string()}: {_first_line(error)}") from None
-    except schema.WrongSchema:
+    except BaseException:
         engine.dispose()
         raise
+
+
+def _require_file(url: URL) -> None:
+    """Refuse to go on without the file of an SQLite store: to open it would create it."""
+    file = Path(str(url.database))
+    if not file.is_file() or not file.stat().st_size:
+        raise schema.NoStore(f"There is no store {file}.")
 
 
 def parse(text: str) -> URL:

@@ -1,45 +1,48 @@
 """Migrates a store to this version's schema, after a backup: there is no way back."""
 
-import sqlite3
-from contextlib import closing
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+from sqlalchemy.engine import URL
+
 from waypost_server.db import engine, schema
-from waypost_server.db.backup import back_up
+from waypost_server.db.backup import CannotBackUp, back_up
 
 
 @dataclass(frozen=True)
 class Done:
-    """A migration, and the backup that was made before; None if none was needed, or on PostgreSQL."""
+    """A migration, and the backup that was made before; None if none was needed or wanted."""
 
     migrated: schema.Migrated
     backup: Path | None
 
 
-def migrate(url: str) -> Done:
-    """Bring a store up to this version's schema, or create it. An older SQLite store is backed up beside itself first.
+def migrate(url: str, *, with_backup: bool = True) -> Done:
+    """Bring a store up to this version's schema, or create it. An older store is backed up first.
+
+    The backup of an SQLite store is beside it; that of a PostgreSQL store is in the working folder. Nobody else can
+    migrate the store meanwhile.
 
     Raises:
         BadDatabase, NewerStore: with one sentence for the operator.
         CannotBackUp: the backup failed, and nothing was migrated.
     """
-    store = engine.parse(url)
-    copy = None
-    if store.get_backend_name() == "sqlite" and _is_older(file := Path(str(store.database))):
-        copy = file.with_name(f"{file.name}.before-{schema.newest()}-{datetime.now(UTC):%Y%m%d-%H%M%S}")
-        back_up(url, copy)
-    return Done(engine.migrate(url), copy)
+    copy = _copy_of(engine.parse(url))
+    made: list[Path] = []
+
+    def keep() -> None:
+        try:
+            back_up(url, copy)
+        except CannotBackUp as error:
+            raise CannotBackUp(f"{error} Nothing was migrated; with --no-backup, it is without a backup.") from None
+        made.append(copy)
+
+    migrated = engine.migrate(url, keep) if with_backup else engine.migrate(url)
+    return Done(migrated, made[0] if made else None)
 
 
-def _is_older(file: Path) -> bool:
-    """Return whether a file is a store of an earlier version. What else it may be, the migration itself finds out."""
-    if not file.is_file():
-        return False
-    try:
-        with closing(sqlite3.connect(f"file:{file}?mode=ro", uri=True)) as store:
-            row = store.execute("SELECT version_num FROM alembic_version").fetchone()
-    except sqlite3.DatabaseError:
-        return False
-    return row is not None and row[0] != schema.newest()
+def _copy_of(store: URL) -> Path:
+    """Return the path for the backup of a store."""
+    place = Path(str(store.database)) if store.get_backend_name() == "sqlite" else Path(f"{store.database}.dump")
+    return place.with_name(f"{place.name}.before-{schema.newest()}-{datetime.now(UTC):%Y%m%d-%H%M%S}")

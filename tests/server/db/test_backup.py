@@ -2,18 +2,22 @@
 
 import os
 import signal
+import sqlite3
 import subprocess
 import sys
 import threading
 import time
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.server.kit import Service, in_process, make_older_store, query, schema_of
+from tests.server.kit import Service, in_process, make_older_store, query, schema_of, together
 from typer.testing import CliRunner
 
 from waypost_server.cli import app
+from waypost_server.db.migration import migrate
+from waypost_server.db.schema import newest
 
 
 def run(*arguments: str, status: int = 0) -> str:
@@ -84,6 +88,40 @@ def test_a_file_that_is_no_backup_is_refused(sqlite_url: str, tmp_path: Path, co
     assert not Path(sqlite_url.removeprefix("sqlite:///")).exists()
 
 
+@pytest.mark.parametrize(
+    ("change", "fact"),
+    [
+        ("UPDATE runs SET spent = 1", "What a run has spent is what the ledger says."),
+        ("UPDATE runs SET gold_rate = 7", "The file is sound."),
+    ],
+)
+def test_a_backup_with_a_fault_is_restored_only_if_one_insists(
+    sqlite_url: str, tmp_path: Path, change: str, fact: str
+) -> None:
+    with in_process(sqlite_url) as service:
+        service.learner.create_run()
+    backup, elsewhere = tmp_path / "backup", f"sqlite:///{tmp_path / 'restored.db'}"
+    run("backup", str(backup), "--database", sqlite_url)
+    with closing(sqlite3.connect(backup)) as store:
+        store.execute("PRAGMA ignore_check_constraints = ON")
+        store.execute(change)
+        store.commit()
+    assert fact in run("restore", str(backup), "--database", elsewhere, status=2)
+    assert sorted(one.name for one in tmp_path.iterdir() if "restored" in one.name) == []
+    assert fact in run("restore", str(backup), "--database", elsewhere, "--anyway", status=1)
+    assert f"WRONG {fact}" in run("check", "--database", elsewhere, status=1)
+
+
+def test_a_backup_of_an_older_store_is_restored_and_can_be_migrated(
+    database_url: str, elsewhere: str, tmp_path: Path
+) -> None:
+    make_older_store(database_url)
+    run("backup", str(tmp_path / "backup"), "--database", database_url)
+    assert "`waypost migrate`" in run("restore", str(tmp_path / "backup"), "--database", elsewhere)
+    run("migrate", "--no-backup", "--database", elsewhere)
+    assert "WRONG" not in run("check", "--database", elsewhere)
+
+
 def test_what_does_not_exist_is_neither_backed_up_nor_restored(sqlite_url: str, tmp_path: Path) -> None:
     assert "no store" in run("backup", str(tmp_path / "backup"), "--database", sqlite_url, status=2)
     assert "no file" in run("restore", str(tmp_path / "nothing"), "--database", sqlite_url, status=2)
@@ -106,12 +144,47 @@ def test_a_backup_that_is_killed_leaves_no_file_of_its_name(sqlite_url: str, tmp
     run("backup", str(tmp_path / "backup"), "--database", sqlite_url)
 
 
-def test_an_older_store_is_backed_up_before_it_is_migrated(sqlite_url: str, tmp_path: Path) -> None:
-    make_older_store(sqlite_url)
-    older = schema_of(sqlite_url)
-    said = run("migrate", "--database", sqlite_url)
-    (copy,) = tmp_path.glob("*.before-*")
-    assert str(copy) in said
-    assert schema_of(f"sqlite:///{copy}") == older != schema_of(sqlite_url)
-    run("migrate", "--database", sqlite_url)
-    assert len(list(tmp_path.glob("*.before-*"))) == 1, "a store of this version needs no copy"
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working folder: an empty one."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def copies(folder: Path) -> list[Path]:
+    return list(folder.glob("*.before-*"))
+
+
+def test_an_older_store_is_backed_up_before_it_is_migrated(database_url: str, elsewhere: str, here: Path) -> None:
+    make_older_store(database_url)
+    said = run("migrate", "--database", database_url)
+    (copy,) = copies(here)
+    assert copy.name in said
+    run("restore", str(copy), "--database", elsewhere)
+    assert (schema_of(elsewhere), schema_of(database_url)) == ("0006", newest())
+    run("migrate", "--database", database_url)
+    assert len(copies(here)) == 1, "a store of this version needs no copy"
+
+
+def test_those_who_migrate_at_once_make_one_backup(database_url: str, here: Path) -> None:
+    make_older_store(database_url)
+    done = together(lambda _: migrate(database_url), 4)
+    assert sorted(one.migrated.before for one in done) == ["0006", newest(), newest(), newest()]
+    assert [one.backup.name for one in done if one.backup] == [one.name for one in copies(here)]
+
+
+def test_a_store_that_cannot_be_backed_up_is_not_migrated(
+    database_url: str, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    make_older_store(database_url)
+    with monkeypatch.context() as patched:
+        patched.setattr("waypost_server.db.backup.shutil.which", lambda _: None)
+        patched.setattr("waypost_server.db.backup.os.link", unwritable)
+        assert "Nothing was migrated" in run("migrate", "--database", database_url, status=2)
+    assert schema_of(database_url) == "0006"
+    run("migrate", "--no-backup", "--database", database_url)
+    assert (schema_of(database_url), copies(here)) == (newest(), [])
+
+
+def unwritable(*_: object) -> None:
+    raise OSError("No space left on device")

@@ -1,6 +1,7 @@
 """`waypost check`: a store that was used in every way is sound, and each kind of damage is named."""
 
 import json
+from pathlib import Path
 
 import pytest
 from sqlalchemy import Connection, create_engine, text
@@ -52,7 +53,7 @@ def check(url: str, status: int = 0) -> list[dict[str, object]]:
 
 
 def test_a_store_that_was_used_in_every_way_is_sound(used: str) -> None:
-    assert [result["n_faults"] for result in check(used)] == [0] * (13 if used.startswith("sqlite") else 11)
+    assert [result["n_faults"] for result in check(used)] == [0] * (16 if used.startswith("sqlite") else 14)
 
 
 def test_it_says_what_holds_and_what_does_not(used: str) -> None:
@@ -93,6 +94,7 @@ def unguard(conn: Connection) -> None:
 ONE = "(SELECT min(id) FROM queries WHERE state = 'answered' AND episode = 0)"
 DAMAGES = {
     "UPDATE runs SET spent = spent - 1 WHERE spent > 0": "What a run has spent is the cost of the answers that count.",
+    "UPDATE runs SET budget = 0": "A run has spent and reserved no more than its budget.",
     "UPDATE runs SET reserved = reserved + 1": "What a run has reserved is for its queries without an answer.",
     "UPDATE ledger SET units = units + 1 WHERE entry = 'charge'": "An answer is charged once",
     "DELETE FROM ledger WHERE entry = 'refund'": "An answer is charged once",
@@ -117,5 +119,29 @@ def test_a_row_that_refers_to_nothing_is_named(sqlite_url: str) -> None:
     with in_process(sqlite_url) as service:
         use(service)
     damage(sqlite_url, "DELETE FROM users WHERE name = 'abe'")
-    (wrong,) = [result for result in check(sqlite_url, status=1) if result["n_faults"]]
-    assert wrong["fact"] == "What a row refers to exists."
+    wrong = [result["fact"] for result in check(sqlite_url, status=1) if result["n_faults"]]
+    assert "What a row refers to exists." in wrong
+
+
+def test_a_store_that_does_not_exist_is_not_created(database_url: str, tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, ["check", "--database", database_url])
+    assert (done.exit_code, "There is no store" in done.output) == (2, True), done.output
+    assert list(tmp_path.glob("*.db*")) == []
+
+
+@pytest.mark.parametrize(
+    ("statement", "fact"),
+    [
+        ("ALTER TABLE runs ADD COLUMN mine TEXT", "The tables, columns and indexes are those of this version."),
+        ("DROP INDEX uq_runs_gold_of", "The tables, columns and indexes are those of this version."),
+        ("{drop}", "No statement can change an answer, an entry of the ledger, or an event."),
+    ],
+)
+def test_a_store_whose_schema_was_changed_is_named(used: str, statement: str, fact: str) -> None:
+    lite = used.startswith("sqlite")
+    engine = create_engine(used.replace("postgresql:", "postgresql+psycopg:"))
+    drop = "DROP TRIGGER ledger_no_delete" if lite else "ALTER TABLE ledger DISABLE TRIGGER ledger_append_only"
+    with engine.begin() as conn:
+        conn.execute(text(statement.format(drop=drop)))
+    engine.dispose()
+    assert [result["fact"] for result in check(used, status=1) if result["n_faults"]] == [fact]
