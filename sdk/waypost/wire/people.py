@@ -44,6 +44,11 @@ class Me(Message):
         description="The median working time of the last 1,000 of these answers, without idle time, in seconds."
     )
     units: float = Field(description="The cost of these answers in all runs, in units.")
+    held: int = Field(description="The number of queries that the user holds, in every browser and program.")
+    held_seconds: float | None = Field(
+        description="In how many seconds the first of these leases ends, unless it is renewed; null if there is none."
+    )
+    held_by_others: int = Field(description="The number of queries that other users hold.")
 
 
 class UserCreate(Message):

@@ -12,7 +12,7 @@ from sqlalchemy import Row, Select, and_, case, func, select
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.tables import answers, queries, users
+from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import results
 from waypost_server.gold.results import Results
@@ -37,6 +37,12 @@ def me(tx: Tx, user: int) -> wire.Me:
     ).one()
     newest = select(counted.c.active_seconds).order_by(counted.c.id.desc()).limit(RECENT_ANSWERS)
     recent = tx.conn.execute(newest).scalars().all()
+    own = case((assignments.c.user_id == user, 1))
+    held, everybody, ends_at = tx.conn.execute(
+        select(func.count(own), func.count(), func.min(case((own == 1, assignments.c.expires_at)))).where(
+            IS_LIVE, assignments.c.expires_at > tx.now
+        )
+    ).one()
     return wire.Me(
         id=who.id,
         name=who.name,
@@ -45,6 +51,9 @@ def me(tx: Tx, user: int) -> wire.Me:
         answers_today=total[2],
         median_seconds=statistics.median(recent) if recent else None,
         units=to_units(int(total[1])),
+        held=held,
+        held_seconds=None if ends_at is None else ends_at - tx.now,
+        held_by_others=everybody - held,
     )
 
 

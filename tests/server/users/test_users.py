@@ -135,6 +135,20 @@ def test_users_are_created_and_listed_and_names_are_unique(service: Service) -> 
     service.admin.post("/users/999/login-links", expect=404)
 
 
+def test_me_says_who_holds_queries(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, *(query(ordinal=n) for n in range(3)))
+    held = [service.annotator.lease(), service.annotator.lease()]
+    service.admin.lease()
+    me = service.annotator.get("/me")
+    assert (me["held"], me["held_by_others"]) == (2, 1)
+    assert 0 < me["held_seconds"] <= held[0]["lease_seconds"]
+    for one in held:
+        service.annotator.release(one)
+    me = service.annotator.get("/me")
+    assert (me["held"], me["held_seconds"], me["held_by_others"]) == (0, None, 1)
+
+
 def test_me_says_what_was_answered(service: Service) -> None:
     me = service.annotator.get("/me")
     assert (me["answers"], me["median_seconds"], me["units"]) == (0, None, 0)

@@ -3243,6 +3243,21 @@ export interface components {
              * @description The cost of these answers in all runs, in units.
              */
             units: number;
+            /**
+             * Held
+             * @description The number of queries that the user holds, in every browser and program.
+             */
+            held: number;
+            /**
+             * Held Seconds
+             * @description In how many seconds the first of these leases ends, unless it is renewed; null if there is none.
+             */
+            held_seconds: number | null;
+            /**
+             * Held By Others
+             * @description The number of queries that other users hold.
+             */
+            held_by_others: number;
         };
         /**
          * Milestone

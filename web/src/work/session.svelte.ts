@@ -252,6 +252,7 @@ export class WorkSession {
         }
         [attempts, wait] = [0, POLL_SECONDS];
         this.phase = 'waiting';
+        void this.#refreshMe(); // it says who holds queries
       } catch (error) {
         if (isAborted(error)) return;
         if (error instanceof Refused) {
