@@ -66,7 +66,12 @@ def test_one_query_of_each_kind_is_answered_with_the_keyboard_alone(
             expect_state(page, one)
             assert violations(page) == [], one.ask.kind
             give(page, one.right)
-            assert learner.answer_of(one.query) == one.stored
+            answer = learner.answer_of(one.query)
+            if one.ask.kind == "hier_demo":  # with it is what the annotator saw
+                steps = sum(len(segment["actions"]) for segment in answer["segments"])
+                assert len(answer["replay"]["states"]) == steps + 1
+                answer["replay"] = None
+            assert answer == one.stored
 
 
 def test_new_turns_of_a_conversation_are_marked(open_page: Open, served: Served) -> None:

@@ -268,11 +268,20 @@ def test_a_domain_without_a_renderer_is_played_with_letters(
     stage(learner.served, query, CORRIDOR)
     page = open_page(f"/work?run={run}")
     page.locator("[data-stage=here]").wait_for()
-    # Actions are west and east, W and E; the subgoals of the same names are left their digits.
-    press(page, *(["w", "e", "2", "1"] if flat else ["2", "e", "Enter", "t", "e", "e"]))
+    expect(page.get_by_text("the end", exact=True)).to_have_count(0)
+    # The subgoals west and east have their initials in every query, so the actions of these names have other letters.
+    press(page, *(["s", "a", "2", "1"] if flat else ["2", "a", "Enter", "t", "a", "a"]))
     if flat:
         expect(steps(page)).to_have_text("4")
-        press(page, "Backspace", "2", "e")
+        press(page, "Backspace", "2", "a")
     send(page)
-    actions = [segment["actions"] for segment in learner.answer_of(query)["segments"]]
+    answer = learner.answer_of(query)
+    actions = [segment["actions"] for segment in answer["segments"]]
     assert actions == ([["west", "east", "east", "east", "east"]] if flat else [["east"], ["east", "east"]])
+    assert len(answer["replay"]["states"]) == len(answer["replay"]["frames"]) == sum(map(len, actions)) + 1
+    page = open_page(f"/runs/{run}/queries/{query}", role="viewer")
+    slider = page.get_by_role("slider")
+    expect(slider).to_have_attribute("max", str(sum(map(len, actions))))
+    for key in ("End", "Home", "ArrowRight"):
+        page.keyboard.press(key)
+        expect(page.get_by_role("img", name="The state, step")).to_be_visible()

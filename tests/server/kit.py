@@ -46,7 +46,7 @@ def right_answer(ask: Json) -> Json:
     segments = ask.get("segments", [])
     lengths = [len(one["actions"]) for one in segments]
     if kind == "hier_demo":
-        return {"kind": kind, "segments": [{"subgoal": "south", "actions": ["up", "down"]}]}
+        return {"kind": kind, "segments": [{"subgoal": "south", "actions": ["up", "down"]}], "replay": None}
     if kind == "label_hi":
         return {"kind": kind, "subgoals": ["south"] * len(segments)}
     if kind == "label_lo":

@@ -4,10 +4,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from waypost.wire.words import Message, Name, Verdict
+from waypost.wire.words import FrameHash, Json, Message, Name, Verdict
 
 __all__ = [
     "Answer",
+    "DemoReplay",
     "DemoSegment",
     "HierDemoAnswer",
     "InspectAnswer",
@@ -18,10 +19,21 @@ __all__ = [
 
 
 class DemoSegment(Message):
-    """One segment of a demonstration. It has no states: the learner computes them from the actions."""
+    """One segment of a demonstration. The learner computes its states from the actions."""
 
     subgoal: Name | None = Field(description="The subgoal of the segment; null in a flat demonstration.")
     actions: list[Name] = Field(min_length=1, max_length=10_000, description="a_1 .. a_H.")
+
+
+class DemoReplay(Message):
+    """What an annotator saw of a demonstration, for those who look at it later. The learner does not use it."""
+
+    states: list[Json] = Field(
+        max_length=10_001, description="One JSON view of the domain per state, from the start to the last action."
+    )
+    frames: list[FrameHash] = Field(
+        default_factory=list, max_length=10_001, description="One uploaded picture per state, or none."
+    )
 
 
 class HierDemoAnswer(Message):
@@ -29,6 +41,9 @@ class HierDemoAnswer(Message):
 
     kind: Literal["hier_demo"]
     segments: list[DemoSegment] = Field(min_length=1, max_length=10_000, description="The segments in order.")
+    replay: DemoReplay | None = Field(
+        default=None, description="What the annotator saw, if the web app cannot compute it from the actions."
+    )
 
 
 class InspectAnswer(Message):

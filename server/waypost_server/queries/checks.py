@@ -118,6 +118,15 @@ def _check_demonstration(ask: wire.AskHierDemo, answer: wire.HierDemoAnswer, nam
         if segment.subgoal is not None:
             names.check_subgoal(segment.subgoal, name_at)
         names.check_actions(segment.actions, [*at, "segments", place, "actions"])
+    if answer.replay is not None:
+        _check_length_or_none(answer.replay.states, total + 1, [*at, "replay", "states"])
+        _check_length_or_none(answer.replay.frames, total + 1, [*at, "replay", "frames"])
+
+
+def _check_length_or_none(given: Sequence[object], length: int, at: Location) -> None:
+    """Refuse a list that is neither empty nor as long as it must be."""
+    if given and len(given) != length:
+        raise Unprocessable(at, f"has {len(given)} entries; {length} fit: one per state")
 
 
 def _check_lo_labels(ask: wire.AskLabelLo, answer: wire.LabelLoAnswer, names: Names, at: Location) -> None:

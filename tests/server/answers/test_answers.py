@@ -91,6 +91,17 @@ def test_an_idempotency_key_names_one_answer(service: Service) -> None:
         ),
         ("hier_demo", {"kind": "hier_demo", "segments": [{"subgoal": "north", "actions": ["up"] * 5}]}, ["segments"]),
         ("hier_demo", {"kind": "hier_demo", "segments": [{"subgoal": "north", "actions": ["up"]}] * 4}, ["segments"]),
+        *(
+            (
+                "hier_demo",
+                {"kind": "hier_demo", "segments": [{"subgoal": "north", "actions": ["up"]}], "replay": replay},
+                ["replay", too_long],
+            )
+            for too_long, replay in (
+                ("states", {"states": [1, 2, 3]}),
+                ("frames", {"states": [1, 2], "frames": ["0" * 64]}),
+            )
+        ),
         (
             "hier_demo",
             {"kind": "hier_demo", "segments": [{"subgoal": "x", "actions": ["up"]}]},

@@ -1340,7 +1340,7 @@ export interface components {
              */
             token: string;
             /** Answer */
-            answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            answer: components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
             /** @description Which query to lease in the same call; null for none. */
             next?: components["schemas"]["Lease"] | null;
         };
@@ -1408,7 +1408,7 @@ export interface components {
              * Suggestion
              * @description The learner's own choices in the form of an answer; they may be wrong.
              */
-            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            suggestion?: (components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -1520,7 +1520,7 @@ export interface components {
              * Suggestion
              * @description The learner's own choices in the form of an answer; they may be wrong.
              */
-            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            suggestion?: (components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -1606,7 +1606,7 @@ export interface components {
              * Suggestion
              * @description The learner's own choices in the form of an answer; they may be wrong.
              */
-            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            suggestion?: (components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -1692,7 +1692,7 @@ export interface components {
              * Suggestion
              * @description The learner's own choices in the form of an answer; they may be wrong.
              */
-            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            suggestion?: (components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -1778,7 +1778,7 @@ export interface components {
              * Suggestion
              * @description The learner's own choices in the form of an answer; they may be wrong.
              */
-            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            suggestion?: (components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -1864,7 +1864,7 @@ export interface components {
              * Suggestion
              * @description The learner's own choices in the form of an answer; they may be wrong.
              */
-            suggestion?: (components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
+            suggestion?: (components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"]) | null;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -2120,7 +2120,7 @@ export interface components {
              */
             token: string;
             /** Answer */
-            answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            answer: components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
         };
         /**
          * Change
@@ -2355,8 +2355,40 @@ export interface components {
             deliveries: components["schemas"]["Delivery"][];
         };
         /**
+         * DemoReplay
+         * @description What an annotator saw of a demonstration, for those who look at it later. The learner does not use it.
+         */
+        DemoReplayInput: {
+            /**
+             * States
+             * @description One JSON view of the domain per state, from the start to the last action.
+             */
+            states: components["schemas"]["JsonValue"][];
+            /**
+             * Frames
+             * @description One uploaded picture per state, or none.
+             */
+            frames?: string[];
+        };
+        /**
+         * DemoReplay
+         * @description What an annotator saw of a demonstration, for those who look at it later. The learner does not use it.
+         */
+        DemoReplay: {
+            /**
+             * States
+             * @description One JSON view of the domain per state, from the start to the last action.
+             */
+            states: components["schemas"]["JsonValue"][];
+            /**
+             * Frames
+             * @description One uploaded picture per state, or none.
+             */
+            frames: string[];
+        };
+        /**
          * DemoSegment
-         * @description One segment of a demonstration. It has no states: the learner computes them from the actions.
+         * @description One segment of a demonstration. The learner computes its states from the actions.
          */
         DemoSegment: {
             /**
@@ -2695,6 +2727,24 @@ export interface components {
          * HierDemoAnswer
          * @description The expert's own trajectory: segments that each end where the subgoal is reached, or one flat segment.
          */
+        HierDemoAnswerInput: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            kind: "hier_demo";
+            /**
+             * Segments
+             * @description The segments in order.
+             */
+            segments: components["schemas"]["DemoSegment"][];
+            /** @description What the annotator saw, if the web app cannot compute it from the actions. */
+            replay?: components["schemas"]["DemoReplayInput"] | null;
+        };
+        /**
+         * HierDemoAnswer
+         * @description The expert's own trajectory: segments that each end where the subgoal is reached, or one flat segment.
+         */
         HierDemoAnswer: {
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -2706,6 +2756,8 @@ export interface components {
              * @description The segments in order.
              */
             segments: components["schemas"]["DemoSegment"][];
+            /** @description What the annotator saw, if the web app cannot compute it from the actions. */
+            replay: components["schemas"]["DemoReplay"] | null;
         };
         /**
          * Holding
@@ -3468,7 +3520,7 @@ export interface components {
          */
         PracticeAnswer: {
             /** Answer */
-            answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            answer: components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
         };
         /**
          * PracticeQuery

@@ -1,10 +1,10 @@
 // @vitest-environment happy-dom
 import { afterEach, describe, expect, it, vi } from 'vitest';
-import { initial } from '../api/names';
+import { initial, readable } from '../api/names';
 import type { Vocabulary } from '../api/types';
 import { keyOf, listen, match, printed, type KeyPress } from './keys';
 import { remapped } from './remap';
-import { bindingsFor, collisions, MODES, type Binding } from './registry';
+import { bindingsFor, collisions, MODES, type Binding, type Mode } from './registry';
 
 const maze: Vocabulary = {
   domain: 'maze',
@@ -100,30 +100,52 @@ describe('the registry', () => {
     expect(awkward.actions.map((_, index) => keysOf(hierarchical, `act:${index}`))).toEqual([
       ['ArrowLeft'],
       ['s'],
-      [' '],
-      ['n'],
+      ['f', ' '],
+      ['o'],
     ]);
     expect(keysOf(hierarchical, 'choose:3')).toEqual(['x', '4']);
     const many = { ...maze, actions: Array.from({ length: 30 }, (_, index) => `noop ${index}`) };
     const flat = bindingsFor('flat_demo', many);
     expect(collisions(flat)).toEqual([]);
-    expect(keysOf(flat, 'act:1')).toEqual(['o', '2']);
+    expect(keysOf(flat, 'act:1')).toEqual(['p', '2']);
     expect(flat.filter(({ command, keys }) => command.startsWith('act:') && keys.length === 0)).toHaveLength(
-      5,
+      12,
     );
   });
 
-  it('gives the actions of a game their usual keys in demonstrations, and leaves the player its own', () => {
+  it('gives the actions of a game their usual keys too in demonstrations, and leaves the player its own', () => {
     const game = { ...maze, actions: ['jump', 'left', 'jump_left', 'jump_right'] };
     const demo = bindingsFor('hier_demo', game);
     expect(game.actions.map((_, index) => keysOf(demo, `act:${index}`))).toEqual([
-      [' '],
+      ['j', ' '],
       ['ArrowLeft'],
-      ['Shift+ArrowLeft'],
-      ['Shift+ArrowRight'],
+      ['m', 'Shift+ArrowLeft'],
+      ['p', 'Shift+ArrowRight'],
     ]);
     expect(collisions(demo)).toEqual([]);
     expect(keysOf(bindingsFor('label_lo', game), 'play')).toEqual([' ']);
+  });
+
+  it.each([
+    ['maze', maze],
+    ['awkward', awkward],
+    [
+      'game',
+      { ...maze, subgoals: ['stair', 'key', 'door', 'jump'], actions: ['noop', 'jump', 'left', 'key'] },
+    ],
+  ])('gives a subgoal or an action the same key in every query: %s', (_, vocabulary) => {
+    const first = (mode: Mode, label: string, verb: string): string | undefined =>
+      bindingsFor(mode, vocabulary).find(
+        (one) => one.label === readable(label) && one.command.startsWith(verb),
+      )?.keys[0];
+    for (const name of vocabulary.subgoals)
+      expect(first('hier_demo', name, 'choose')).toBe(first('label_hi', name, 'choose'));
+    for (const name of vocabulary.actions) {
+      const key = first('label_lo', name, 'choose');
+      expect(first('label_full', name, 'choose')).toBe(key);
+      expect(first('flat_demo', name, 'act')).toBe(key);
+      expect(first('hier_demo', name, 'act')).toBe(key);
+    }
   });
 
   it('leaves every command of every mode reachable', () => {

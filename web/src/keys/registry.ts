@@ -218,9 +218,8 @@ const ARROWS: Readonly<Record<string, string>> = {
   left: 'ArrowLeft',
   right: 'ArrowRight',
 };
-/** The usual keys of a game, in demonstrations. A label's player uses them otherwise. */
+/** The usual keys of a game. They work in demonstrations; elsewhere, the player uses them. */
 const GAME_KEYS: Readonly<Record<string, string>> = {
-  ...ARROWS,
   jump: ' ',
   fire: ' ',
   jump_left: 'Shift+ArrowLeft',
@@ -229,31 +228,50 @@ const GAME_KEYS: Readonly<Record<string, string>> = {
   jump_down: 'Shift+ArrowDown',
 };
 const DIGITS = '1234567890';
+/** The modes in which subgoals are chosen, and those in which actions are. */
+const OF_SUBGOALS: readonly Mode[] = ['label_hi', 'hier_demo'];
+const OF_ACTIONS: readonly Mode[] = ['label_lo', 'label_full', 'hier_demo', 'flat_demo'];
 
 function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
-  if (mode === 'label_hi') {
-    const reserved = new Set([...answerBindings(mode), UNDO, HELP].flatMap((binding) => binding.keys));
-    return subgoalBindings(vocabulary.subgoals, reserved);
-  }
-  if (mode === 'hier_demo' || mode === 'flat_demo') return demoBindings(mode, vocabulary);
-  if (mode === 'label_lo' || mode === 'label_full') {
-    return vocabulary.actions.map((name, index) => choice(name, index, ARROWS[name.toLowerCase()]));
-  }
-  return [];
+  if (!OF_SUBGOALS.includes(mode) && !OF_ACTIONS.includes(mode)) return [];
+  const { subgoals, actions } = namesToKeys(vocabulary);
+  const chosen = subgoals.map((key, index) =>
+    choice(`choose:${index}`, vocabulary.subgoals[index] ?? '', [key, DIGITS[index]]),
+  );
+  if (mode === 'label_hi') return chosen;
+  const isDemo = mode === 'hier_demo' || mode === 'flat_demo';
+  const moves = actions.map((key, index) => {
+    const name = vocabulary.actions[index] ?? '';
+    const digit = mode === 'hier_demo' ? undefined : DIGITS[index]; // there, subgoals have the digits
+    const usual = isDemo ? GAME_KEYS[name.toLowerCase()] : undefined;
+    const isFirst = vocabulary.actions.findIndex((one) => GAME_KEYS[one.toLowerCase()] === usual) === index;
+    return choice(`${isDemo ? 'act' : 'choose'}:${index}`, name, [key, isFirst ? usual : undefined, digit]);
+  });
+  return mode === 'hier_demo' ? [...chosen, ...moves] : moves;
 }
 
-/** Each action has the usual key of a game or a letter, each subgoal a digit and perhaps a letter. In a flat demonstration, actions also have digits. */
-function demoBindings(mode: 'hier_demo' | 'flat_demo', { subgoals, actions }: Vocabulary): Binding[] {
-  const taken = new Set([...answerBindings(mode), UNDO, HELP].flatMap((binding) => binding.keys));
-  const moves = actions.map((name, index): Binding => {
-    const usual = GAME_KEYS[name.toLowerCase()];
-    const key = usual !== undefined && !taken.has(usual) ? usual : freeLetter(name, taken);
-    if (key !== undefined) taken.add(key);
-    const digit = mode === 'flat_demo' ? DIGITS[index] : undefined;
-    const keys = [key, digit].filter((one) => one !== undefined);
-    return { command: `act:${index}`, keys, label: readable(name), group: 'Answer' };
+/**
+ * Return the key of each subgoal and action: the same in every mode, so that a hand can learn it. A subgoal has its
+ * initial, if that is free and no other subgoal has it. An action has the arrow of its direction, or a letter.
+ */
+function namesToKeys(vocabulary: Vocabulary): Record<'subgoals' | 'actions', (string | undefined)[]> {
+  const usedIn = (modes: readonly Mode[]): Set<string> =>
+    new Set([...modes.flatMap(answerBindings), UNDO, HELP].flatMap((binding) => binding.keys));
+  const reserved = usedIn(OF_SUBGOALS);
+  const initials = vocabulary.subgoals.map((name) => initial(name).toLowerCase());
+  const subgoals = initials.map((letter) => {
+    const unique = initials.indexOf(letter) === initials.lastIndexOf(letter);
+    return unique && /^[a-z]$/.test(letter) && !reserved.has(letter) ? letter : undefined;
   });
-  return mode === 'flat_demo' ? moves : [...subgoalBindings(subgoals, taken), ...moves];
+  const taken = usedIn(OF_ACTIONS);
+  for (const key of subgoals) if (key !== undefined) taken.add(key);
+  const actions = vocabulary.actions.map((name) => {
+    const arrow = ARROWS[name.toLowerCase()];
+    const key = arrow !== undefined && !taken.has(arrow) ? arrow : freeLetter(name, taken);
+    if (key !== undefined) taken.add(key);
+    return key;
+  });
+  return { subgoals, actions };
 }
 
 function freeLetter(name: string, taken: ReadonlySet<string>): string | undefined {
@@ -261,22 +279,6 @@ function freeLetter(name: string, taken: ReadonlySet<string>): string | undefine
   return Array.from(candidates).find((letter) => /[a-z]/.test(letter) && !taken.has(letter));
 }
 
-/** Each subgoal has a digit. It also has its initial, if that key is free and no other subgoal has the same initial. */
-function subgoalBindings(subgoals: readonly string[], reserved: ReadonlySet<string>): Binding[] {
-  const initials = subgoals.map((name) => initial(name).toLowerCase());
-  return subgoals.map((name, index) => {
-    const letter = initials[index] ?? '';
-    const unique = initials.indexOf(letter) === initials.lastIndexOf(letter);
-    return choice(
-      name,
-      index,
-      unique && /^[a-z]$/.test(letter) && !reserved.has(letter) ? letter : undefined,
-    );
-  });
-}
-
-function choice(name: string, index: number, key: string | undefined): Binding {
-  const digit = DIGITS[index];
-  const keys = [key, digit].filter((one) => one !== undefined);
-  return { command: `choose:${index}`, keys, label: readable(name), group: 'Answer' };
+function choice(command: Command, name: string, keys: readonly (string | undefined)[]): Binding {
+  return { command, keys: keys.filter((one) => one !== undefined), label: readable(name), group: 'Answer' };
 }

@@ -114,10 +114,14 @@ export function costOf(demonstration: Demonstration, price: Price): number {
   return price.fixed + price.per_action * actions + price.per_segment * hierarchical;
 }
 
-/** Return the answer; null if there is no step, or if a step has no state yet. */
-export function answerOf(demonstration: Demonstration): AnswerOf<'hier_demo'> | null {
+/** Return the answer, with what was seen if `withReplay`; null if there is no step, or if a step has no state yet. */
+export function answerOf(demonstration: Demonstration, withReplay: boolean): AnswerOf<'hier_demo'> | null {
   const segments = segmentsOf(demonstration);
-  return segments.length === 0 || isBehind(demonstration) ? null : { kind: 'hier_demo', segments };
+  if (segments.length === 0 || isBehind(demonstration)) return null;
+  const { states, pictures } = demonstration;
+  const frames = pictures.filter((picture) => picture !== null);
+  const replay = { states: [...states], frames: frames.length === states.length ? frames : [] };
+  return { kind: 'hier_demo', segments, replay: withReplay ? replay : null };
 }
 
 /** Return the demonstration as a tape, as far as its states are known. */
@@ -130,7 +134,8 @@ export function tapeOf(demonstration: Demonstration): Tape {
     next += actions.length;
     return { index, subgoal, first, last, actions: actions.slice(0, last - first), asked: true };
   });
-  return { frames: demonstration.states, pictures: demonstration.pictures, stretches, start: 0 };
+  const { states, pictures, ended } = demonstration;
+  return { frames: states, pictures, stretches, start: 0, goesOn: !ended };
 }
 
 /** Return the demonstration without the states of undone actions. */

@@ -13,6 +13,7 @@ export interface PlayOptions {
   readonly ask: AskOf<'hier_demo'>;
   readonly vocabulary: Vocabulary;
   readonly price: Price;
+  readonly withReplay: boolean; // whether the answer says what was seen
 }
 
 export interface PlayEvents {
@@ -77,7 +78,7 @@ export class Play {
 
   /** Send the demonstration, accomplished or not. */
   sendAnyway(): void {
-    const answer = demos.answerOf(this.demonstration);
+    const answer = demos.answerOf(this.demonstration, this.#options.withReplay);
     if (answer !== null) this.#events.submit(answer);
   }
 

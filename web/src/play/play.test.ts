@@ -34,6 +34,7 @@ class Scenario {
         ask: { ...ask, ...more },
         vocabulary,
         price,
+        withReplay: false,
       },
       {
         tell: (moves) => this.told.push(moves),
@@ -141,7 +142,11 @@ describe('playing', () => {
     const scenario = new Scenario({ flat: true }).here();
     scenario.walk('act:1', 'act:1', 'act:1', 'send');
     expect(scenario.sent).toEqual([
-      { kind: 'hier_demo', segments: [{ subgoal: null, actions: ['right', 'right', 'right'] }] },
+      {
+        kind: 'hier_demo',
+        segments: [{ subgoal: null, actions: ['right', 'right', 'right'] }],
+        replay: null,
+      },
     ]);
   });
 });

@@ -21,6 +21,8 @@ export interface Tape {
   readonly stretches: readonly Stretch[];
   /** The frame where the first segment begins that the query asks about. */
   readonly start: number;
+  /** Whether the trajectory goes on after the last frame, as in a demonstration that is being played. */
+  readonly goesOn: boolean;
 }
 
 /** A tape in a player. */
@@ -49,7 +51,7 @@ export function buildTape(context: readonly Segment[], asked: readonly Segment[]
       asked: index >= context.length,
     };
   });
-  return { frames, pictures, stretches, start: stretches[context.length]?.first ?? 0 };
+  return { frames, pictures, stretches, start: stretches[context.length]?.first ?? 0, goesOn: false };
 }
 
 export function lastFrame(tape: Tape): number {

@@ -20,3 +20,15 @@ const STEPS: Readonly<Record<string, Step>> = { maze: stepMaze };
 export function stepOf(name: string): Step | null {
   return Object.hasOwn(STEPS, name) ? (STEPS[name] ?? null) : null;
 }
+
+/** What the marks of a renderer's own picture mean. */
+const LEGENDS: Readonly<Record<string, string>> = {
+  maze: 'On the map, the ring is the target and the dot is the agent. A number with a letter marks the state where a subgoal was chosen. Segments that the query does not ask about are faint.',
+};
+const LEGEND_OF_PICTURES =
+  'Under the picture are the states where a subgoal was chosen. Segments that the query does not ask about are dashed.';
+
+/** Return what the marks on a domain's pictures mean. */
+export function legendOf(name: string): string {
+  return Object.hasOwn(LEGENDS, name) ? (LEGENDS[name] ?? '') : LEGEND_OF_PICTURES;
+}

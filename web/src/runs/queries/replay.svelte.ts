@@ -1,5 +1,5 @@
 // The replay of a query: its trajectory in the player, with the labels of its answer.
-import type { Answer, Query, Run, Segment } from '../../api/types';
+import type { Answer, AnswerOf, Json, Query, Run, Segment } from '../../api/types';
 import type { Command } from '../../keys/registry';
 import { MOVES } from '../../player/commands';
 import * as players from '../../player/player';
@@ -58,18 +58,30 @@ export class Replay {
   }
 }
 
-/** Return the learner's trajectory. For a demonstration, return the annotator's, or only its start if `step` is null. */
+/** Return the learner's trajectory; for a demonstration, the annotator's, as far as its states are known. */
 export function tapeOf({ ask, answer }: Pick<Query, 'ask' | 'answer'>, step: Step | null): Tape {
   if (ask.kind !== 'hier_demo') return buildTape(ask.context, ask.segments);
   const start: Segment = { subgoal: null, states: [ask.state], actions: [], frames: [] };
-  if (answer?.kind !== 'hier_demo' || step === null) return buildTape(ask.context, [start]);
-  let state = ask.state;
-  const segments = answer.segments.map(({ subgoal, actions }): Segment => {
-    const states = [state];
-    for (const action of actions) states.push((state = step(state, action)));
+  const demonstrated = answer?.kind === 'hier_demo' ? segmentsOf(ask.state, answer, step) : null;
+  if (demonstrated !== null) return buildTape(ask.context, demonstrated);
+  return { ...buildTape(ask.context, [start]), goesOn: true };
+}
+
+/** Return the segments of a demonstration with their states: computed, or else as the annotator saw them. */
+function segmentsOf(first: Json, answer: AnswerOf<'hier_demo'>, step: Step | null): Segment[] | null {
+  const { segments, replay } = answer;
+  if (step === null && !replay?.states.length) return null;
+  let state = first;
+  let before = 0; // steps before the segment
+  return segments.map(({ subgoal, actions }): Segment => {
+    const [begin, end] = [before, (before += actions.length) + 1];
+    if (step === null) {
+      const states = replay?.states.slice(begin, end) ?? [];
+      return { subgoal, states, actions, frames: replay?.frames?.slice(begin, end) ?? [] };
+    }
+    const states = [state, ...actions.map((action) => (state = step(state, action)))];
     return { subgoal, states, actions, frames: [] };
   });
-  return buildTape(ask.context, segments);
 }
 
 /** Return the labels of the answer, as a renderer draws them. */

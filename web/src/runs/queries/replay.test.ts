@@ -25,7 +25,7 @@ describe('the replay of a query', () => {
       { subgoal: 'north', actions: ['up', 'up'] },
       { subgoal: 'east', actions: ['right'] },
     ];
-    const query = { ask, answer: { kind: 'hier_demo', segments } } as const;
+    const query = { ask, answer: { kind: 'hier_demo' as const, segments, replay: null } };
     expect(tapeOf(query, stepMaze).frames).toEqual([
       [5, 2],
       [4, 2],
@@ -33,6 +33,29 @@ describe('the replay of a query', () => {
       [3, 3],
     ]);
     expect(tapeOf(query, null).frames).toEqual([[5, 2]]);
-    expect(tapeOf({ ask, answer: null }, stepMaze).frames).toEqual([[5, 2]]);
+    const unanswered = tapeOf({ ask, answer: null }, stepMaze);
+    expect([unanswered.frames, unanswered.goesOn]).toEqual([[[5, 2]], true]);
+  });
+
+  it('shows a demonstration of any other domain as the annotator saw it', () => {
+    const ask = { kind: 'hier_demo', context: [], state: 's1' } as unknown as Query['ask'];
+    const segments = [
+      { subgoal: 'north', actions: ['up', 'up'] },
+      { subgoal: 'east', actions: ['right'] },
+    ];
+    const replay = { states: ['s1', 's2', 's3', 's4'], frames: ['a', 'b', 'c', 'd'] };
+    const tape = tapeOf({ ask, answer: { kind: 'hier_demo', segments, replay } }, null);
+    expect([tape.frames, tape.pictures, tape.goesOn]).toEqual([replay.states, replay.frames, false]);
+    expect(tape.stretches.map(({ first, last, subgoal }) => [first, last, subgoal])).toEqual([
+      [0, 2, 'north'],
+      [2, 3, 'east'],
+    ]);
+    const bare = { ...replay, frames: [] };
+    expect(tapeOf({ ask, answer: { kind: 'hier_demo', segments, replay: bare } }, null).pictures).toEqual([
+      null,
+      null,
+      null,
+      null,
+    ]);
   });
 });
