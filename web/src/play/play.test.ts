@@ -103,6 +103,7 @@ describe('playing', () => {
           { subgoal: 'door', actions: ['right'] },
           { subgoal: 'target', actions: ['right', 'right'] },
         ],
+        replay: null,
       },
     ]);
   });

@@ -2,8 +2,9 @@
 import { initial } from '../../api/names';
 import type { Label, Scene } from '../../player/scene';
 import type { Stretch } from '../../player/tape';
-import { direction, isDoor, isLava, MOVES, parseCell, trailOffset, type Cell, type Maze } from './geometry';
+import { isDoor, isLava, MOVES, parseCell, type Cell, type Maze } from './geometry';
 import type { Palette } from './palette';
+import { lanesOf, type Lane, type Point } from './trails';
 
 export interface Picture {
   readonly scene: Scene;
@@ -12,6 +13,8 @@ export interface Picture {
   readonly size: number; // CSS pixels
 }
 
+const LEAST_TEXT = 10; // CSS pixels: smaller letters cannot be read, so on a phone the markers are larger than a third
+
 type Brush = CanvasRenderingContext2D;
 
 /** Draw everything. It takes a few hundred strokes, much less than the time of a frame. */
@@ -19,9 +22,10 @@ export function drawMaze(brush: Brush, picture: Picture): void {
   brush.clearRect(0, 0, picture.size, picture.size);
   drawCells(brush, picture);
   drawTarget(brush, picture);
-  for (const stretch of picture.scene.tape.stretches) drawTrail(brush, picture, stretch);
-  for (const label of picture.scene.labels) drawLabel(brush, picture, label);
+  const lanes = lanesOf(picture.scene.tape.frames.map(parseCell));
+  for (const stretch of inFront(picture.scene)) drawTrail(brush, picture, stretch, lanes);
   drawAgent(brush, picture);
+  for (const label of picture.scene.labels) drawLabel(brush, picture, label);
   drawEnd(brush, picture);
   for (const stretch of inFront(picture.scene)) drawMarker(brush, picture, stretch);
 }
@@ -58,47 +62,41 @@ function drawTarget(brush: Brush, picture: Picture): void {
 }
 
 /** Draw the path of a segment: thick up to the current frame, thin after it, faint if the query does not ask about it. */
-function drawTrail(brush: Brush, picture: Picture, stretch: Stretch): void {
+function drawTrail(brush: Brush, picture: Picture, stretch: Stretch, lanes: readonly (Lane | null)[]): void {
   const { scene } = picture;
   const unit = unitOf(picture);
   brush.strokeStyle = brush.fillStyle = colorOf(picture, stretch);
   brush.lineCap = brush.lineJoin = 'round';
   const seen = Math.min(stretch.last, Math.max(stretch.first, scene.at));
   brush.globalAlpha = stretch.asked ? 1 : 0.4;
-  strokeFrames(brush, picture, stretch, stretch.first, seen, unit * 0.17);
+  strokeLanes(brush, unit, lanes.slice(Math.max(0, stretch.first - 1), seen), stretch.first > 0, unit * 0.13);
   brush.globalAlpha = stretch.asked ? 0.75 : 0.3;
-  strokeFrames(brush, picture, stretch, seen, stretch.last, unit * 0.07);
-  for (let frame = stretch.first; frame < stretch.last; frame++)
-    drawArrowhead(brush, picture, stretch, frame);
+  strokeLanes(brush, unit, lanes.slice(Math.max(0, seen - 1), stretch.last), seen > 0, unit * 0.06);
+  for (const lane of lanes.slice(stretch.first, stretch.last)) {
+    if (lane === null) continue;
+    const [row, column] = [(lane.from[0] + lane.to[0]) / 2, (lane.from[1] + lane.to[1]) / 2];
+    fillTriangle(brush, [column * unit, row * unit], lane.way, unit * 0.17);
+  }
   brush.globalAlpha = 1;
 }
 
-function strokeFrames(
+/** Stroke a part of the way. If `joined`, the first lane was drawn before, and the part begins where it ends. */
+function strokeLanes(
   brush: Brush,
-  picture: Picture,
-  stretch: Stretch,
-  from: number,
-  to: number,
+  unit: number,
+  lanes: readonly (Lane | null)[],
+  joined: boolean,
   width: number,
 ): void {
-  if (from >= to) return;
+  const points = lanes.flatMap((lane, place): Point[] => {
+    if (lane === null) return [];
+    return joined && place === 0 ? [lane.to] : [lane.from, lane.to];
+  });
+  if (points.length < 2) return;
   brush.lineWidth = width;
   brush.beginPath();
-  for (let frame = from; frame <= to; frame++) {
-    const cell = cellAt(picture, frame);
-    if (cell !== null) brush.lineTo(...centre(picture, cell, trailOffset(stretch.index)));
-  }
+  for (const [row, column] of points) brush.lineTo(column * unit, row * unit);
   brush.stroke();
-}
-
-function drawArrowhead(brush: Brush, picture: Picture, stretch: Stretch, frame: number): void {
-  const [from, to] = [cellAt(picture, frame), cellAt(picture, frame + 1)];
-  const way = from && to && direction(from, to);
-  if (!from || !to || !way) return;
-  const unit = unitOf(picture);
-  const [x0, y0] = centre(picture, from, trailOffset(stretch.index));
-  const [x1, y1] = centre(picture, to, trailOffset(stretch.index));
-  fillTriangle(brush, [(x0 + x1) / 2, (y0 + y1) / 2], way, unit * 0.19);
 }
 
 function fillTriangle(brush: Brush, [x, y]: readonly [number, number], [dy, dx]: Cell, size: number): void {
@@ -135,7 +133,7 @@ function drawEnd(brush: Brush, picture: Picture): void {
   brush.stroke();
 }
 
-/** Return the stretches with the current one last, so that no other marker covers its marker. */
+/** Return the stretches with the current one last, so that no other covers its trail and its marker. */
 function inFront({ tape, current }: Scene): Stretch[] {
   return tape.stretches.toSorted((a, b) => Number(a.index === current) - Number(b.index === current));
 }
@@ -149,9 +147,10 @@ function drawMarker(brush: Brush, picture: Picture, stretch: Stretch): void {
   const [x, y] = centre(picture, cell, -0.36);
   const text = `${stretch.index + 1}${initial(stretch.subgoal)}`;
   const isCurrent = scene.current === stretch.index;
-  brush.font = `700 ${Math.round(unit * 0.34)}px system-ui, sans-serif`;
-  const width = Math.max(unit * 0.56, brush.measureText(text).width + unit * 0.18);
-  const height = unit * 0.48;
+  const letters = Math.max(Math.round(unit * 0.34), LEAST_TEXT);
+  brush.font = `700 ${letters}px system-ui, sans-serif`;
+  const width = Math.max(unit * 0.56, brush.measureText(text).width + letters * 0.5);
+  const height = letters * 1.4;
   brush.globalAlpha = stretch.asked ? 1 : 0.55;
   brush.fillStyle = colorOf(picture, stretch);
   brush.beginPath();
@@ -169,7 +168,7 @@ function drawMarker(brush: Brush, picture: Picture, stretch: Stretch): void {
   brush.globalAlpha = 1;
 }
 
-/** Draw a label: an arrow out of its state, or a square where the segment should have ended. */
+/** Draw a label over all else: an arrow out of its state, or a square where the segment should have ended. */
 function drawLabel(brush: Brush, picture: Picture, label: Label): void {
   const cell = cellAt(picture, label.frame);
   if (cell === null) return;
@@ -181,7 +180,7 @@ function drawLabel(brush: Brush, picture: Picture, label: Label): void {
   brush.strokeStyle = palette.map['label-edge'];
   brush.lineWidth = unit * 0.06;
   if (way) {
-    fillTriangle(brush, [x + way[1] * unit * 0.24, y + way[0] * unit * 0.24], way, unit * 0.2);
+    fillTriangle(brush, [x + way[1] * unit * 0.34, y + way[0] * unit * 0.34], way, unit * 0.3);
   } else if (label.action === null) {
     brush.fillRect(x - unit * 0.2, y - unit * 0.2, unit * 0.4, unit * 0.4);
   }

@@ -1,14 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import {
-  describeCell,
-  direction,
-  isDoor,
-  isLava,
-  parseCell,
-  parseMaze,
-  trailOffset,
-  type Maze,
-} from './geometry';
+import { describeCell, direction, isDoor, isLava, parseCell, parseMaze, type Maze } from './geometry';
 
 const rows = Array.from({ length: 17 }, (_, row) =>
   Array.from({ length: 17 }, (_, column) => (row % 4 === 0 || column % 4 === 0 ? '#' : '.')).join(''),
@@ -54,12 +45,5 @@ describe('a maze', () => {
     expect(direction([2, 2], [1, 2])).toEqual([-1, 0]);
     expect(direction([2, 2], [2, 3])).toEqual([0, 1]);
     expect(direction([2, 2], [2, 2])).toBeNull();
-  });
-
-  it('shifts neighbouring segments apart, by less than the trail would need to leave its cell', () => {
-    const offsets = [0, 1, 2, 3].map(trailOffset);
-    expect(new Set(offsets.slice(0, 3)).size).toBe(3);
-    expect(offsets[3]).toBe(offsets[0]);
-    expect(Math.max(...offsets.map(Math.abs))).toBeLessThan(0.35);
   });
 });

@@ -67,10 +67,3 @@ export function direction(from: Cell, to: Cell): Cell | null {
   const [rows, columns] = [to[0] - from[0], to[1] - from[1]];
   return rows === 0 && columns === 0 ? null : [Math.sign(rows), Math.sign(columns)];
 }
-
-const OFFSETS = [0, 0.13, -0.13];
-
-/** Return how far a segment's path is shifted, in cells. Without this, the way back would cover the way there. */
-export function trailOffset(index: number): number {
-  return OFFSETS[index % OFFSETS.length] ?? 0;
-}
