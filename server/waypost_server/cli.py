@@ -275,13 +275,16 @@ def _change(database: str, name: str, wanted: wire.UserPatch) -> None:
 def create_token(
     user: str,
     label: Annotated[str, typer.Option(help="The purpose of the token.")] = "",
+    days: Annotated[
+        float | None, typer.Option(min=0.01, max=3_650, help="For how many days it is valid; without, until revoked.")
+    ] = None,
     database: DatabaseOption = DEFAULT_DATABASE,
     as_json: JsonOption = False,
 ) -> None:
     """Create an API token for a user. It is shown only once."""
     with opened(database) as db:
         owner = db.read_now(lambda tx: users.find_by_name(tx, user))
-        token = db.write_now(lambda tx: tokens.create_token(tx, owner.id, label))
+        token = db.write_now(lambda tx: tokens.create_token(tx, owner.id, label, days))
     typer.echo(token.model_dump_json() if as_json else token.token)
 
 
@@ -296,7 +299,8 @@ def list_tokens(user: str, database: DatabaseOption = DEFAULT_DATABASE, as_json:
         return
     for token in found.tokens:
         typer.echo(
-            f"{token.id:>6}  created {_day(token.created_at)}  last used {_day(token.last_used_at)}  {token.label}"
+            f"{token.id:>6}  created {_day(token.created_at)}  last used {_day(token.last_used_at)}  "
+            f"expires {_day(token.expires_at)}  {token.label}"
         )
 
 

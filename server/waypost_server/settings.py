@@ -43,6 +43,9 @@ class Settings(BaseSettings):
     session_seconds: float = Field(
         default=30 * 86_400.0, gt=0, description="How long a browser stays logged in after its last use."
     )
+    session_max_seconds: float = Field(
+        default=90 * 86_400.0, gt=0, description="How long a browser stays logged in at most, however often it is used."
+    )
     login_failures: int = Field(
         default=10, gt=0, description="The maximum number of wrong login codes per client and minute."
     )

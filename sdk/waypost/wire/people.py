@@ -96,6 +96,13 @@ class TokenCreate(Message):
         default=None, ge=1, le=2**63 - 1, description="The id of the token's user; null for the caller."
     )
     label: Note = ""
+    days: float | None = Field(
+        default=None,
+        gt=0,
+        le=3_650,
+        allow_inf_nan=False,
+        description="For how many days the token is valid; null until it is revoked.",
+    )
 
 
 class NewToken(Message):
@@ -114,6 +121,7 @@ class Token(Message):
     last_used_at: float | None = Field(
         description="When the token was last used, in seconds since the epoch, to the minute; null if never."
     )
+    expires_at: float | None = Field(description="When it expires, in seconds since the epoch; null if it does not.")
 
 
 class TokenList(Message):

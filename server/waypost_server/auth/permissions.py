@@ -13,6 +13,7 @@ from waypost_server.auth.access import ACCESS, check_role
 from waypost_server.auth.lookup import Cached, CredentialCache
 
 COOKIE = "waypost_session"
+HOST_ONLY = "__Host-"  # with it, a browser lets neither another host nor a page over http set the cookie
 
 _bearer = HTTPBearer(auto_error=False, scheme_name="token", description="An API token, `wp_...`.")
 _cookie = APIKeyCookie(name=COOKIE, auto_error=False, scheme_name="session", description="A browser's session.")
@@ -29,6 +30,16 @@ class Caller:
     by_cookie: bool
 
 
+def is_secure(connection: HTTPConnection) -> bool:
+    """Return whether browsers reach this server over https."""
+    return connection.app.state.context.settings.secure_cookies or connection.url.scheme in {"https", "wss"}
+
+
+def cookie_of(connection: HTTPConnection) -> str:
+    """Return the name of the session cookie. Over https, a cookie of another name is no session."""
+    return HOST_ONLY + COOKIE if is_secure(connection) else COOKIE
+
+
 async def authenticate(connection: HTTPConnection, cache: CredentialCache) -> Caller:
     """Return the caller, identified by a bearer token or by a session cookie.
 
@@ -36,7 +47,8 @@ async def authenticate(connection: HTTPConnection, cache: CredentialCache) -> Ca
         Unauthenticated: the request carries no valid credential.
     """
     scheme, _, token = connection.headers.get("authorization", "").partition(" ")
-    secret, by_cookie = (token.strip(), False) if scheme.lower() == "bearer" else (connection.cookies.get(COOKIE), True)
+    by_cookie = scheme.lower() != "bearer"
+    secret = connection.cookies.get(cookie_of(connection)) if by_cookie else token.strip()
     if not secret:
         raise errors.Unauthenticated("Send `Authorization: Bearer <token>`, or open a login link (waypost login-link).")
     owner = await cache.find(secret, "session" if by_cookie else "api")

@@ -1,6 +1,6 @@
 """Browser sessions, and the login links that start them."""
 
-from sqlalchemy import exists, select, update
+from sqlalchemy import case, exists, select, update
 
 from waypost import wire
 from waypost_server import errors
@@ -78,12 +78,17 @@ def list_sessions(tx: Tx, user: int, current: int) -> wire.SessionList:
     )
 
 
-def renew_session(tx: Tx, session: int, seconds: float) -> bool:
-    """Extend a session to its full lifetime, if enough of it is over; return whether it was extended."""
+def renew_session(tx: Tx, session: int, seconds: float, most: float) -> bool:
+    """Extend a session to its full lifetime, if enough of it is over; return whether it was extended.
+
+    It never ends later than `most` seconds after its login.
+    """
+    until = tx.now + seconds
+    last = credentials.c.created_at + most
     renewed = tx.conn.execute(
         update(credentials)
         .where(credentials.c.id == session, credentials.c.revoked_at.is_(None))
-        .where(credentials.c.expires_at < tx.now + (1 - RENEWED_AFTER) * seconds)
-        .values(expires_at=tx.now + seconds)
+        .where(credentials.c.expires_at < tx.now + (1 - RENEWED_AFTER) * seconds, credentials.c.expires_at < last)
+        .values(expires_at=case((last < until, last), else_=until))
     )
     return bool(renewed.rowcount)

@@ -8,15 +8,17 @@ from waypost_server.auth.credentials import issue, revoke, valid
 from waypost_server.db.tables import credentials, users
 from waypost_server.db.transaction import Tx
 
+DAY = 86_400.0  # seconds
 
-def create_token(tx: Tx, user: int, label: str) -> wire.NewToken:
-    """Create an API token.
+
+def create_token(tx: Tx, user: int, label: str, days: float | None = None) -> wire.NewToken:
+    """Create an API token that is valid for `days`, or until it is revoked.
 
     Raises:
         NotFound: there is no such user.
         NotActive: the user is deactivated.
     """
-    issued = issue(tx, user, "api", label)
+    issued = issue(tx, user, "api", label, None if days is None else days * DAY)
     return wire.NewToken(id=issued.id, token=issued.secret)
 
 
@@ -31,7 +33,13 @@ def list_tokens(tx: Tx, user: int) -> wire.TokenList:
     rows = tx.conn.execute(valid(tx, user, "api"))
     return wire.TokenList(
         tokens=[
-            wire.Token(id=row.id, label=row.label, created_at=row.created_at, last_used_at=row.last_used_at)
+            wire.Token(
+                id=row.id,
+                label=row.label,
+                created_at=row.created_at,
+                last_used_at=row.last_used_at,
+                expires_at=row.expires_at,
+            )
             for row in rows
         ]
     )

@@ -93,7 +93,7 @@ async def create_token(body: wire.TokenCreate, context: Ctx, caller: Allowed) ->
     user = caller.user if body.user is None else body.user
     if user != caller.user and caller.role not in ADMINS:
         raise errors.Forbidden("Only an administrator may create tokens for other users.")
-    return await context.db.write(lambda tx: tokens.create_token(tx, user, body.label))
+    return await context.db.write(lambda tx: tokens.create_token(tx, user, body.label, body.days))
 
 
 @router.delete("/tokens/{token}", status_code=204, operation_id="revokeToken", responses=refusals(errors.NotFound))

@@ -7,7 +7,7 @@ from waypost_server import errors
 from waypost_server.auth import credentials, sessions, tokens
 from waypost_server.auth.attempts import Counted
 from waypost_server.auth.lookup import Cached
-from waypost_server.auth.permissions import COOKIE, Allowed, refuse_cross_site
+from waypost_server.auth.permissions import Allowed, cookie_of, is_secure, refuse_cross_site
 from waypost_server.http.context import Context, Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.problems import refusals
@@ -19,14 +19,18 @@ router = APIRouter(tags=["people"], route_class=JsonRoute)
 def _set_cookie(context: Context, request: Request, response: Response, secret: str) -> None:
     """Set the session cookie. The browser keeps it for as long as the session lasts."""
     response.set_cookie(
-        COOKIE,
+        cookie_of(request),
         secret,
         max_age=int(context.settings.session_seconds),
         path="/",
         httponly=True,
         samesite="strict",
-        secure=context.settings.secure_cookies or request.url.scheme == "https",
+        secure=is_secure(request),
     )
+
+
+def _delete_cookie(request: Request, response: Response) -> None:
+    response.delete_cookie(cookie_of(request), path="/", httponly=True, samesite="strict", secure=is_secure(request))
 
 
 @router.post(
@@ -57,20 +61,22 @@ async def login(body: wire.Login, request: Request, response: Response, context:
 
 
 @router.delete("/session", status_code=204, operation_id="logout")
-async def logout(response: Response, context: Ctx, cache: Cached, caller: Allowed) -> None:
+async def logout(request: Request, response: Response, context: Ctx, cache: Cached, caller: Allowed) -> None:
     """End the browser's session. API tokens stay valid."""
     if caller.by_cookie:
         await context.db.write(lambda tx: credentials.revoke(tx, caller.credential))
         cache.clear()
-    response.delete_cookie(COOKIE, path="/")
+    _delete_cookie(request, response)
 
 
 @router.get("/me", operation_id="me")
 async def me(request: Request, response: Response, context: Ctx, caller: Allowed) -> wire.Me:
     """Return the caller and the totals of their answers. This call also renews a browser's session."""
-    seconds = context.settings.session_seconds
-    if caller.by_cookie and await context.db.write(lambda tx: sessions.renew_session(tx, caller.credential, seconds)):
-        _set_cookie(context, request, response, request.cookies[COOKIE])
+    seconds, most = context.settings.session_seconds, context.settings.session_max_seconds
+    if caller.by_cookie and await context.db.write(
+        lambda tx: sessions.renew_session(tx, caller.credential, seconds, most)
+    ):
+        _set_cookie(context, request, response, request.cookies[cookie_of(request)])
     return await context.db.read(lambda tx: performance.me(tx, caller.user))
 
 
@@ -93,8 +99,8 @@ async def my_sessions(context: Ctx, caller: Allowed) -> wire.SessionList:
 
 
 @router.delete("/me/sessions", status_code=204, operation_id="logoutEverywhere")
-async def logout_everywhere(response: Response, context: Ctx, cache: Cached, caller: Allowed) -> None:
+async def logout_everywhere(request: Request, response: Response, context: Ctx, cache: Cached, caller: Allowed) -> None:
     """End all of the caller's browser sessions, including this one. API tokens stay valid."""
     await context.db.write(lambda tx: credentials.revoke_all(tx, caller.user, "session"))
     cache.clear()
-    response.delete_cookie(COOKIE, path="/")
+    _delete_cookie(request, response)

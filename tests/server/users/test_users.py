@@ -6,6 +6,7 @@ from typing import Any
 
 import httpx2
 import pytest
+from sqlalchemy import text
 from tests.server.kit import API, Caller, Service, in_process, query, together
 
 from waypost_server.auth import sessions
@@ -222,6 +223,58 @@ def test_a_session_lives_on_while_it_is_used(sqlite_url: str) -> None:
         now = service.client.get(f"{API}/me/sessions").json()["sessions"][0]
         assert now["expires_at"] - left["expires_at"] == pytest.approx(500, abs=60)
         assert now["current"]
+
+
+def test_a_session_ends_however_often_it_is_used(sqlite_url: str) -> None:
+    with in_process(sqlite_url, session_seconds=1_000, session_max_seconds=1_200) as service:
+        log_in(service, code_for(service))
+        for passed, left in ((500, 700), (500, 200)):
+            service.db.write_now(
+                lambda tx, passed=passed: tx.conn.exec_driver_sql(
+                    f"UPDATE credentials SET expires_at = expires_at - {passed}, created_at = created_at - {passed} "
+                    "WHERE kind = 'session'"
+                )
+            )
+            assert service.client.get(f"{API}/me").status_code == 200
+            (session,) = service.client.get(f"{API}/me/sessions").json()["sessions"]
+            assert session["expires_at"] - time.time() == pytest.approx(left, abs=60)
+
+
+@pytest.mark.parametrize("secure", [False, True])
+def test_over_https_only_this_host_can_set_the_cookie(sqlite_url: str, secure: bool) -> None:
+    name, other = "__Host-waypost_session", "waypost_session"
+    if not secure:
+        name, other = other, name
+    with in_process(sqlite_url, secure_cookies=secure) as service:
+        cookie = log_in(service, code_for(service)).headers["set-cookie"]
+        assert cookie.startswith(f"{name}=")
+        assert {"HttpOnly", "Path=/", "SameSite=strict"} <= set(cookie.split("; "))
+        assert ("Secure" in cookie.split("; ")) == secure
+        assert "Domain" not in cookie
+        secret = cookie.split("=", 1)[1].split(";")[0]
+        service.client.cookies.clear()
+        for sent, status in ((name, 200), (other, 401)):
+            assert service.client.get(f"{API}/me", headers={"Cookie": f"{sent}={secret}"}).status_code == status
+        out = service.client.delete(f"{API}/session", headers=SAME | {"Cookie": f"{name}={secret}"})
+        assert out.headers["set-cookie"].startswith(f'{name}="";')
+        assert ("Secure" in out.headers["set-cookie"]) == secure
+
+
+def test_a_token_can_expire(service: Service) -> None:
+    made = service.admin.post("/tokens", {"label": "for a week", "days": 7}, 201)
+    (token,) = [one for one in service.admin.get("/me/tokens")["tokens"] if one["label"] == "for a week"]
+    assert token["expires_at"] - token["created_at"] == pytest.approx(7 * 86_400)
+    headers = {"Authorization": f"Bearer {made['token']}"}
+    assert service.client.get(f"{API}/me", headers=headers).status_code == 200
+    service.db.write_now(
+        lambda tx: tx.conn.execute(
+            text("UPDATE credentials SET expires_at = :now WHERE label = 'for a week'"), {"now": tx.now}
+        )
+    )
+    time.sleep(1.1)  # a server caches credentials for a second
+    assert service.client.get(f"{API}/me", headers=headers).status_code == 401
+    for days in (0, -1, 4_000):
+        service.admin.post("/tokens", {"days": days}, 422)
 
 
 def test_logging_out_everywhere_ends_every_browser_and_no_token(service: Service) -> None:

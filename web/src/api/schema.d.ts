@@ -4338,6 +4338,11 @@ export interface components {
              * @description When the token was last used, in seconds since the epoch, to the minute; null if never.
              */
             last_used_at: number | null;
+            /**
+             * Expires At
+             * @description When it expires, in seconds since the epoch; null if it does not.
+             */
+            expires_at: number | null;
         };
         /**
          * TokenCreate
@@ -4354,6 +4359,11 @@ export interface components {
              * @default
              */
             label: string;
+            /**
+             * Days
+             * @description For how many days the token is valid; null until it is revoked.
+             */
+            days?: number | null;
         };
         /**
          * TokenList

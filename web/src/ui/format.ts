@@ -38,3 +38,10 @@ export function ago(then: number, now: number): string {
   if (passed < 86_400) return `${Math.floor(passed / 3_600)} h ago`;
   return `${Math.floor(passed / 86_400)} d ago`;
 }
+
+const DAY = new Intl.DateTimeFormat('en-GB', { dateStyle: 'medium' });
+
+/** Return the day of a time: 3 Mar 2026. */
+export function day(at: number): string {
+  return DAY.format(at * 1000);
+}
