@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from sqlalchemy import Select, and_, bindparam, exists, not_, or_, select
+from sqlalchemy import Select, and_, bindparam, exists, false, not_, or_, select
 from sqlalchemy.sql.elements import ColumnElement
 
 from waypost_server.db.prepared import Prepared
@@ -133,7 +133,7 @@ def _offered(kinds: Kinds | None, one_run: bool, shared: bool) -> Select[Any]:
     if shared:
         offered = offered.where(~_reserved_for_another())
     if kinds is not None:
-        offered = offered.where(or_(*(queries.c.kind == kind for kind in kinds)))
+        offered = offered.where(or_(false(), *(queries.c.kind == kind for kind in kinds)))
     if one_run:
         offered = offered.where(queries.c.run_id == bindparam("run"))
     return offered

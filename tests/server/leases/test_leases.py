@@ -61,6 +61,7 @@ def test_only_the_wanted_kinds_and_run_are_leased(service: Service) -> None:
     service.learner.ask(one, query("inspect_full"))
     service.learner.ask(two, query("label_lo"))
     assert service.annotator.lease(kinds=["label_hi"], expect=204) is None
+    assert service.annotator.lease(kinds=[], expect=204) is None
     assert kinds_of(service.annotator.lease(kinds=["label_hi", "label_lo"])) == ["label_lo"]
     assert service.annotator.lease(run=two, expect=204) is None
     assert service.annotator.lease(run=one)["run"]["id"] == one
