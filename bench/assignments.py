@@ -65,7 +65,8 @@ def serving(database: str) -> Iterator[tuple[str, int, dict[str, str], list[dict
     annotators = [headers(f"annotator{n}", "annotator") for n in range(max(ANNOTATORS))]
     db.close()
     command = [sys.executable, "-u", "-m", "waypost_server.cli", "serve", "--port", "0", "--database", database]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    unlimited = os.environ | {"WAYPOST_MAX_OPEN_QUERIES": "1000000"}  # per run; by default 10,000
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=unlimited) as process:
         assert process.stdout is not None
         url = process.stdout.readline().split()[-1]
         _wait_until_ready(url)
@@ -201,7 +202,8 @@ def main() -> None:
     parser.add_argument("--annotators", type=int, nargs="+", default=list(ANNOTATORS))
     parser.add_argument("--modes", nargs="+", choices=MODES, default=list(MODES))
     parser.add_argument("--backlogs", type=int, nargs="+", default=[BACKLOG], help="open queries at the start")
-    parser.add_argument("--databases", nargs="+", default=["SQLite", "PostgreSQL"])
+    databases = ("SQLite", "PostgreSQL")
+    parser.add_argument("--databases", nargs="+", choices=databases, default=list(databases))
     options = parser.parse_args()
     print(machine())
     size = len(json.dumps(query(1)))

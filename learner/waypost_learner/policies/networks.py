@@ -38,6 +38,8 @@ class NetworkSpec:
     hidden: int = 256  # units of a hidden layer
     # The standard deviation of its initial weights, which are then normal (Table 2); Glorot's method if None.
     hidden_std: float | None = None
+    # Multiplies pictures, which are fractions of 255. With 255, a network reads bytes, as in the authors' code.
+    scale: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -121,7 +123,15 @@ class ConvNet(nn.Sequential):
         _initialize(layers, rng)
         if spec.hidden_std is not None:
             nn.init.normal_(hidden.weight, std=spec.hidden_std, generator=rng)
+        self.scale = spec.scale
         self.to(memory_format=torch.channels_last)  # type: ignore[call-overload]  # torch's stub lacks this form
+
+    def forward(self, x: torch.Tensor) -> torch.Tensor:
+        """Return the logits of pictures."""
+        x = x if self.scale == 1 else x * self.scale
+        for layer in self:
+            x = layer(x)
+        return x
 
 
 def _side(pixels: int, one: Convolution) -> int:

@@ -53,7 +53,7 @@ PAPER = Preset(
     rollouts=RolloutSpec(SelectionSpec(temperature=0.0, termination_threshold=0.9), h_hi=4),
     training=Training(
         network=NetworkSpec(
-            (Convolution(32, 8, 4), Convolution(64, 4, 2), Convolution(64, 3)), hidden=512, hidden_std=0.01
+            (Convolution(32, 8, 4), Convolution(64, 4, 2), Convolution(64, 3)), hidden=512, hidden_std=0.01, scale=255
         ),
         train_hi=TrainSpec(dropout=0.0),
         train_lo=TrainSpec(dropout=0.0),

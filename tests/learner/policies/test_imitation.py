@@ -180,6 +180,16 @@ def test_training_in_bf16_where_the_processor_has_it_keeps_the_weights_in_32_bit
     assert all(torch.isfinite(weight).all() for weight in weights(trained))
 
 
+def test_a_network_can_read_bytes_instead_of_fractions() -> None:
+    fractions, bytes_ = (
+        build_network((3, 17, 17), 4, replace(NETWORK, scale=scale), 0.0, torch.Generator().manual_seed(1))
+        for scale in (1.0, 255.0)
+    )
+    pictures = torch.rand(2, 3, 17, 17)
+    assert torch.allclose(bytes_(pictures), fractions(255 * pictures))
+    assert not torch.allclose(bytes_(pictures), fractions(pictures))
+
+
 def test_the_papers_network_has_the_layers_of_table_1() -> None:
     layers = build_network((3, 17, 17), 4, NetworkSpec(), 0.5, torch.Generator())
     sizes = [(layer.in_channels, layer.out_channels) for layer in layers if isinstance(layer, torch.nn.Conv2d)]
