@@ -35,8 +35,8 @@ __all__ = [
 Tab = Annotated[str, Field(pattern=r"^[\x21-\x7e]{1,64}$", description="The name of a browser tab, chosen by the tab.")]
 
 
-class _Wish(Message):
-    """Which queries an annotator asks for, and how long to wait for them."""
+class Lease(Message):
+    """A request for the next query, sent by an annotator."""
 
     wait: float = Field(
         default=0, ge=0, le=60, allow_inf_nan=False, description="The longest time to wait for a query, in seconds."
@@ -51,11 +51,6 @@ class _Wish(Message):
         description="How long to leave new queries to other working annotators who take their kind, in seconds. "
         "Only bots that help people need this.",
     )
-
-
-class Lease(_Wish):
-    """A request for the next query, sent by an annotator."""
-
     ahead: bool = Field(
         default=False,
         description="Whether the query is for later, because the annotator holds another one. It is leased only if "
@@ -66,10 +61,22 @@ class Lease(_Wish):
     )
 
 
-class LeaseBatch(_Wish):
+class LeaseBatch(Message):
     """A request for several queries at once, sent by a bot."""
 
     count: int = Field(ge=1, le=100, description="The most queries to lease.")
+    wait: float = Field(
+        default=0, ge=0, le=60, allow_inf_nan=False, description="The longest time to wait for a query, in seconds."
+    )
+    kinds: list[Kind] | None = Field(default=None, description="Only queries of these kinds; null for all kinds.")
+    run: str | None = Field(default=None, description="Only queries of the run with this id; null for all runs.")
+    defer: float = Field(
+        default=0,
+        ge=0,
+        le=3_600,
+        allow_inf_nan=False,
+        description="How long to leave new queries to other working annotators who take their kind, in seconds.",
+    )
 
 
 class Price(Message):

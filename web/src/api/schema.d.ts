@@ -2991,6 +2991,11 @@ export interface components {
          */
         LeaseBatch: {
             /**
+             * Count
+             * @description The most queries to lease.
+             */
+            count: number;
+            /**
              * Wait
              * @description The longest time to wait for a query, in seconds.
              * @default 0
@@ -3008,15 +3013,10 @@ export interface components {
             run?: string | null;
             /**
              * Defer
-             * @description How long to leave new queries to other working annotators who take their kind, in seconds. Only bots that help people need this.
+             * @description How long to leave new queries to other working annotators who take their kind, in seconds.
              * @default 0
              */
             defer: number;
-            /**
-             * Count
-             * @description The most queries to lease.
-             */
-            count: number;
         };
         /**
          * Leave
