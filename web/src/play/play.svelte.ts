@@ -102,8 +102,10 @@ export class Play {
   states(news: PlayStates): void {
     if (news.number !== this.#underway) return;
     this.#underway = null;
-    this.#heard = true;
-    if (!this.#outdated) this.#keep(demos.learn(this.demonstration, news));
+    if (!this.#outdated) {
+      this.#heard = true;
+      this.#keep(demos.learn(this.demonstration, news));
+    }
     this.#catchUp();
   }
 

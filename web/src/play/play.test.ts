@@ -165,6 +165,15 @@ describe('the learner’s environment', () => {
     expect(scenario.play.demonstration.states).toEqual([0, 1, 2, 1]);
   });
 
+  it('brings the first picture even if a move is undone before any reply', () => {
+    const scenario = new Scenario();
+    scenario.play.present(true);
+    scenario.press('choose:0', 'act:1', 'clear');
+    while (scenario.told.length > 0) scenario.reply();
+    scenario.walk('act:1');
+    expect(scenario.play.demonstration.pictures).toEqual(['picture of 0', 'picture of 1']);
+  });
+
   it('is ignored if it replies to moves that were undone meanwhile', () => {
     const scenario = new Scenario().here();
     scenario.press('choose:0', 'act:1', 'clear', 'act:0');
