@@ -193,7 +193,7 @@ def restore(
     """Restore a backup as a new SQLite file, or in an empty PostgreSQL database, and check it."""
     try:
         found = backup.restore(file, database, anyway=anyway)
-    except (BadDatabase, WrongSchema, backup.CannotBackUp) as error:
+    except (BadDatabase, WrongSchema, backup.CannotBackUp, errors.StorageFailed) as error:
         refuse(str(error))
     if found.older:
         typer.echo("Restored. An earlier version wrote it: `waypost migrate` migrates it.")

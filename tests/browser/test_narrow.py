@@ -81,3 +81,19 @@ def test_people_and_practice_fit_a_phone(open_page: Open) -> None:
     page.keyboard.press("f")
     wait_for_heading(page, "Not right")
     assert too_wide(page) == [], "feedback"
+
+
+def test_on_a_tablet_the_map_is_large_and_the_player_below_it(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("tablet")
+    learner.ask(run, ask("label_lo"))
+    page = open_page(f"/work?run={run}", size={"width": 768, "height": 1024})
+    wait_for_heading(page, ask("label_lo")["question"])
+    picture = page.locator("canvas").bounding_box()
+    player = page.get_by_role("region", name="Player").bounding_box()
+    assert picture is not None
+    assert player is not None
+    assert picture["width"] >= 0.58 * 768
+    assert picture["y"] + picture["height"] <= player["y"]
+    assert player["y"] + player["height"] <= 640
+    page.keyboard.press("?")
+    expect(page.get_by_role("dialog", name="Keys")).to_contain_text("the ring is the target")

@@ -143,6 +143,14 @@ def test_pictures_show_where_each_subgoal_was_decided_and_are_accessible(
     expect(strip.nth(1)).to_have_attribute("aria-current", "step")
     assert agents_cell(page) == 4
     assert violations(page) == []
+    size = strip.first.get_by_role("presentation").bounding_box()
+    assert size is not None
+    assert size["height"] >= 72
+    page.keyboard.press("?")
+    help_ = page.get_by_role("dialog", name="Keys")
+    expect(help_).to_contain_text("Under the picture are the states where a subgoal was chosen.")
+    expect(help_).not_to_contain_text("ring")
+    page.keyboard.press("Escape")
     page.keyboard.press("Shift+Enter")
 
 

@@ -167,6 +167,32 @@ def test_a_query_is_seen_with_its_trajectory_its_answer_and_its_price(open_page:
     expect(page.get_by_text("✓ balance verified")).to_be_visible()
 
 
+@pytest.mark.parametrize(("last", "explained"), [("Enter", False), ("ArrowUp", True)])
+def test_a_label_that_the_segment_should_not_have_ended_is_shown(
+    open_page: Open, learner: Learner, last: str, explained: bool
+) -> None:
+    run = learner.create_run("not done")
+    asked = ask("label_lo")
+    [query] = learner.ask(run, asked)
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, asked["question"])
+    for key in (*["Enter"] * (len(asked["suggestion"]["actions"]) - 1), last, "n", "Enter"):
+        page.keyboard.press(key)
+    assert not any(learner.answer_of(query)["terminations"])
+    page = open_page(f"/runs/{run}/queries/{query}", role="viewer")
+    labels = page.get_by_role("list", name="Label by state").get_by_role("listitem")
+    expect(labels.last).to_contain_text("not done")
+    expect(page.get_by_text("Dashed: different")).to_have_count(int(explained))
+
+
+def test_a_finished_run_waits_for_nobody(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("over")
+    page = open_page(f"/runs/{run}", role="viewer")
+    expect(page.get_by_text("Open queries wait for an annotator.")).to_be_visible()
+    learner.call("PATCH", f"/runs/{run}", {"state": "finished"})
+    expect(page.get_by_text("Nobody. The run is finished.")).to_be_visible()
+
+
 def test_a_run_is_renamed_preferred_limited_and_finished(
     open_page: Open, learner: Learner, complaints: Complaints
 ) -> None:

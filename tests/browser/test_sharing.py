@@ -1,7 +1,11 @@
 """Several tabs or people at one run: each query goes to one of them, and an episode stays with whoever is at it."""
 
+from playwright.sync_api import Page, expect
 from tests.browser.conftest import Open
-from tests.browser.kit import Learner, ask, wait_for_heading
+from tests.browser.kit import Complaints, Learner, ask, log_in, wait_for_heading
+from tests.browser.test_trouble import wait_until_leased
+
+from waypost_server.serving import Served
 
 QUESTION = ask("inspect_full")["question"]
 
@@ -60,3 +64,25 @@ def test_an_episode_stays_with_the_person_who_is_at_it(open_page: Open, learner:
     page.keyboard.press("Shift+Enter")
     assert learner.answer_of(follow_up)
     assert learner.query(follow_up)["annotator"] == learner.query(query)["annotator"]
+
+
+def test_who_holds_the_queries_is_said_while_none_is_open(
+    open_page: Open, served: Served, learner: Learner, complaints: Complaints
+) -> None:
+    def at_work(name: str) -> Page:
+        page = open_page("/login", role=None)
+        log_in(page.context, served, name, "annotator")
+        page.goto(f"/work?run={run}")
+        return page
+
+    complaints.expect("net::ERR_")
+    run = learner.create_run("closed browser")
+    first, second = learner.ask(run, ask("inspect_full"), ask("inspect_full", 1))
+    closed = at_work("holds-two")
+    wait_until_leased(learner, first, second)
+    closed.context.set_offline(True)  # it cannot say goodbye
+    closed.close()
+    for name, said in (("holds-two", "You hold 2 queries in another tab"), ("holds-none", "Others are answering 2")):
+        page = at_work(name)
+        wait_for_heading(page, "Waiting for the learner")
+        expect(page.get_by_text(said)).to_be_visible()

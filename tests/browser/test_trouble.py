@@ -5,12 +5,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, Route, expect
+from playwright.sync_api import Route, expect
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, ask, log_in, login_link, wait_for_heading
 
 from waypost_server import serving
-from waypost_server.serving import Served
 from waypost_server.settings import Settings
 
 QUESTION = ask("inspect_full")["question"]
@@ -49,28 +48,6 @@ def test_an_answer_survives_an_outage(open_page: Open, learner: Learner, complai
     page.keyboard.press("p")
     learner.answer_of(third)
     assert learner.call("GET", f"/runs/{run}/costs")["total"] == 3
-
-
-def test_who_holds_the_queries_is_said_while_none_is_open(
-    open_page: Open, served: Served, learner: Learner, complaints: Complaints
-) -> None:
-    def at_work(name: str) -> Page:
-        page = open_page("/login", role=None)
-        log_in(page.context, served, name, "annotator")
-        page.goto(f"/work?run={run}")
-        return page
-
-    complaints.expect("net::ERR_")
-    run = learner.create_run("closed browser")
-    first, second = learner.ask(run, ask("inspect_full"), ask("inspect_full", 1))
-    closed = at_work("holds-two")
-    wait_until_leased(learner, first, second)
-    closed.context.set_offline(True)  # it cannot say goodbye
-    closed.close()
-    for name, said in (("holds-two", "You hold 2 queries in another tab"), ("holds-none", "Others are answering 2")):
-        page = at_work(name)
-        wait_for_heading(page, "Waiting for the learner")
-        expect(page.get_by_text(said)).to_be_visible()
 
 
 def test_an_answer_is_sent_from_memory_while_the_storage_is_full(

@@ -88,6 +88,12 @@ def find(tx: Tx, secret_hash: str, kind: CredentialKind) -> Owner | None:
     return Owner(row.id, row.name, row.role, row.credential, is_stale)
 
 
+def seconds_left(tx: Tx, credential: int) -> float | None:
+    """Return how long a credential is still valid; None if it does not expire."""
+    until = tx.conn.execute(select(credentials.c.expires_at).where(credentials.c.id == credential)).scalar_one()
+    return None if until is None else until - tx.now
+
+
 def record_use(tx: Tx, credential: int) -> None:
     """Record that a credential is used now."""
     tx.conn.execute(update(credentials).where(credentials.c.id == credential).values(last_used_at=tx.now))

@@ -4,21 +4,26 @@ from sqlalchemy import select
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.credentials import issue, revoke, valid
+from waypost_server.auth.credentials import issue, revoke, seconds_left, valid
+from waypost_server.db.clock import DAY
 from waypost_server.db.tables import credentials, users
 from waypost_server.db.transaction import Tx
 
-DAY = 86_400.0  # seconds
 
-
-def create_token(tx: Tx, user: int, label: str, days: float | None = None) -> wire.NewToken:
+def create_token(
+    tx: Tx, user: int, label: str, days: float | None = None, made_with: int | None = None
+) -> wire.NewToken:
     """Create an API token that is valid for `days`, or until it is revoked.
+
+    It does not outlive `made_with`, the token with which it is made: a stolen one would otherwise never end.
 
     Raises:
         NotFound: there is no such user.
         NotActive: the user is deactivated.
     """
-    issued = issue(tx, user, "api", label, None if days is None else days * DAY)
+    wanted = None if days is None else days * DAY
+    left = None if made_with is None else seconds_left(tx, made_with)
+    issued = issue(tx, user, "api", label, min((one for one in (wanted, left) if one is not None), default=None))
     return wire.NewToken(id=issued.id, token=issued.secret)
 
 

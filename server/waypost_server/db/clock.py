@@ -6,6 +6,8 @@ from sqlalchemy import Float
 from sqlalchemy.ext.compiler import compiles
 from sqlalchemy.sql.functions import FunctionElement
 
+DAY = 86_400.0  # seconds
+
 
 class clock(FunctionElement[float]):  # noqa: N801 - a SQL function
     """The database's time: seconds since the epoch."""

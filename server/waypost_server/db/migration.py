@@ -35,7 +35,7 @@ def migrate(url: str, *, with_backup: bool = True) -> Done:
         try:
             back_up(url, copy)
         except CannotBackUp as error:
-            raise CannotBackUp(f"{error} Nothing was migrated; with --no-backup, it is without a backup.") from None
+            raise CannotBackUp(f"{error} Nothing was migrated. --no-backup migrates without a backup.") from None
         made.append(copy)
 
     migrated = engine.migrate(url, keep) if with_backup else engine.migrate(url)

@@ -12,12 +12,12 @@ from sqlalchemy import Row, Select, and_, case, func, select
 
 from waypost import wire
 from waypost.prices import to_units
+from waypost_server.db.clock import DAY
 from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import results
 from waypost_server.gold.results import Results
 
-DAY = 86_400.0
 WEEK_DAYS = 7
 RECENT_ANSWERS = 1_000  # in `me`, the median time is over this many newest answers
 

@@ -273,6 +273,12 @@ def test_a_token_can_expire(service: Service) -> None:
     )
     time.sleep(1.1)  # a server caches credentials for a second
     assert service.client.get(f"{API}/me", headers=headers).status_code == 401
+    made = service.admin.post("/tokens", {"label": "a week again", "days": 7}, 201)
+    week = {"Authorization": f"Bearer {made['token']}"}
+    for label, days, lasts in (("child", None, 7), ("long", 30, 7), ("short", 1, 1)):
+        service.client.post(f"{API}/tokens", json={"label": label, "days": days}, headers=week)
+        (token,) = [one for one in service.admin.get("/me/tokens")["tokens"] if one["label"] == label]
+        assert token["expires_at"] - token["created_at"] == pytest.approx(lasts * 86_400, abs=60)
     for days in (0, -1, 4_000):
         service.admin.post("/tokens", {"days": days}, 422)
 

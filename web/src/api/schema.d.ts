@@ -802,6 +802,8 @@ export interface paths {
          * Create Token
          * @description Create an API token for the caller; an administrator may create one for any user. It is shown only once.
          *
+         *     A token that is made with a token does not outlive it.
+         *
          *     Every role may call it. The token must be the caller's own; administrators may do it for every token.
          */
         post: operations["createToken"];

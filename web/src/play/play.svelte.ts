@@ -42,7 +42,7 @@ export class Play {
   readonly #events: PlayEvents;
   #number = 0;
   #underway: number | null = null; // the message whose states have not arrived yet
-  #heard = false; // whether any states have arrived, including the first state
+  #heard = false; // whether the first state has arrived with its picture
   #outdated = false; // whether moves were undone since the last message
 
   constructor(options: PlayOptions, events: PlayEvents) {

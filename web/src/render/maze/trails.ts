@@ -1,7 +1,7 @@
 // Where the steps of a trajectory are drawn: side by side where a way is walked twice, like lanes of a street.
 import { direction, type Cell } from './geometry';
 
-/** A point on the map, in cells from the upper left corner of the maze to the middle of a cell. */
+/** A point on the map, in cells from its upper left corner. The middle of the first cell is (0.5, 0.5). */
 export type Point = readonly [row: number, column: number];
 
 /** A step as a line. */
