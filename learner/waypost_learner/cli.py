@@ -80,6 +80,9 @@ def train(
     budget: Annotated[float | None, typer.Option(min=0, help="The highest cost of the run, in units.")] = None,
     checkpoints: CheckpointsOption = None,
     threads: ThreadsOption = None,
+    measure: Annotated[
+        str | None, typer.Option(help="Instances on whose unseen ones to measure success after each change.")
+    ] = None,
     log: Annotated[list[str] | None, typer.Option(help="Loggers: tensorboard (the default), wandb, mlflow.")] = None,
     patience: PatienceOption = 300.0,
     as_json: JsonOption = False,
@@ -117,10 +120,12 @@ def train(
         setup = set_up(config, threads)  # refuses a wrong configuration before the store is created
         loggers = tuple(word.strip() for words in log or ["tensorboard"] for word in words.split(","))
         check(loggers)  # likewise
+        if measure is not None:
+            setup.learner.domain.instances(measure)  # likewise
         for part, instead in setup.missing.items():
             typer.echo(f"The domain {domain!r} provides no {part}. {instead}", err=True)
         folder = checkpoint_folder(checkpoints, store, server)
-        options = RunOptions(name, budget, resume, folder, threads, loggers, server)
+        options = RunOptions(name, budget, resume, folder, threads, loggers, server, measure)
         with ExitStack() as stack:
             connection = stack.enter_context(
                 connected(server, needed(token), expert == "oracle", patience)

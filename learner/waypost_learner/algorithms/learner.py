@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 import torch
 
-from waypost.domains import Domain, Placed, Relabeling, Retracing, Symmetry, symmetries_of
+from waypost.domains import Domain, Placed, Symmetry, symmetries_of
 from waypost.trajectory import Trajectory
 from waypost_learner.policies.datasets import Dataset
 from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.dqn import DqnSpec, QFunction
 from waypost_learner.policies.imitation import Policy
 from waypost_learner.policies.labels import (
+    Derives,
     Labels,
     Rows,
     rows_of,
@@ -179,7 +180,7 @@ class Learner:
         """
         sizes = {key: len(data) for key, data in self.data.items()}
         use = self.preset.use
-        relabeling = self.domain if isinstance(self.domain, Relabeling | Retracing) else None
+        relabeling = self.domain if isinstance(self.domain, Derives) else None
         rows = rows_of(labels, relabeling if use.relabeling else None, self.preset.training.from_passed)
         self._append_rows(rows, symmetries_of(self.domain) if use.symmetries else ())
         if self.q:

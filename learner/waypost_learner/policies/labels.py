@@ -7,7 +7,7 @@ An algorithm appends to `Labels` in the order of the paper's lines. `rows_of` tu
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from waypost.domains import Relabeling, Retracing, Symmetry
+from waypost.domains import FlatRelabeling, Relabeling, Retracing, Symmetry
 from waypost.trajectory import Action, Segment, Subgoal, Trajectory
 from waypost_learner.policies.datasets import UNLABELED, Row
 from waypost_learner.rollout.experience import Experience
@@ -66,7 +66,11 @@ class Labels:
         self.experience.append((key, trajectory))
 
 
-def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None, from_passed: bool = False) -> Rows:
+Derives = Relabeling | Retracing | FlatRelabeling
+"""A domain that derives labels for other tasks from given ones."""
+
+
+def rows_of(labels: Labels, relabeling: Derives | None = None, from_passed: bool = False) -> Rows:
     """Return the rows that labels add to each policy's buffer, in the order in which the labels were appended.
 
     Args:
@@ -91,6 +95,9 @@ def rows_of(labels: Labels, relabeling: Relabeling | Retracing | None = None, fr
     if isinstance(relabeling, Relabeling):
         for sigma, good in labels.hi:
             rows[META] += [Row(observation, g) for observation, g in relabeling.relabeled(sigma, good)]
+    if isinstance(relabeling, FlatRelabeling):
+        for tau, actions in labels.flat:
+            rows[FLAT] += [Row(observation, a) for observation, a in relabeling.relabeled_actions(tau, actions)]
     if isinstance(relabeling, Retracing):
         for demonstration in labels.demonstrations:
             for segment in relabeling.retraced(demonstration):

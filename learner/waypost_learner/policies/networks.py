@@ -180,7 +180,8 @@ class PlanningNet(nn.Module):
 
         The iterated quantity is exp(V): exp(V) <- sum over choices of exp(-cost) * exp(V) of the next place.
         """
-        passable = torch.sigmoid(-self.costs(functional.relu(self.places(x))))  # exp(-cost), cost = softplus
+        costs = self.costs(functional.relu(self.places(x)))
+        passable = torch.sigmoid(-(costs.double() if self.horizon > _FLOAT32_STEPS else costs))  # exp(-softplus(cost))
         moving, ending = passable[:, :-1], passable[:, -1]
         reached = ending
         for _ in range(self.horizon - 1):
@@ -189,8 +190,8 @@ class PlanningNet(nn.Module):
         here = torch.cat([(moving * self._ahead(reached))[:, :, row, column], ending[:, None, row, column]], 1)
         if self.terminates:
             continuing = here[:, :-1].sum(1, keepdim=True)
-            return torch.cat([_log(here[:, :-1]), _log(here[:, -1:]) - _log(continuing)], 1)
-        return _log(here)[:, : self.outputs]
+            return torch.cat([_log(here[:, :-1]), _log(here[:, -1:]) - _log(continuing)], 1).float()
+        return _log(here)[:, : self.outputs].float()
 
     def _ahead(self, reached: torch.Tensor) -> torch.Tensor:
         """Return exp(V) of the place each move leads to, float32[B, moves, rows, columns]; 0 outside the picture."""
@@ -199,9 +200,13 @@ class PlanningNet(nn.Module):
         return torch.stack([padded[:, 1 + r : 1 + r + rows, 1 + c : 1 + c + columns] for r, c in self.moves], 1)
 
 
+_FLOAT32_STEPS = 32
+"""The longest horizon that float32 is precise enough for: exp(V) is between about exp(-2.5) and 4 per step."""
+
+
 def _log(x: torch.Tensor) -> torch.Tensor:
-    """Return the logarithm, but at least about -80, because float32 cannot represent numbers much below exp(-80)."""
-    return torch.log(x.clamp(min=1e-35))
+    """Return the logarithm, but at least that of the smallest number that the type represents well."""
+    return torch.log(x.clamp(min=1e-35 if x.dtype == torch.float32 else 1e-300))
 
 
 def _initialize(layers: list[nn.Module], rng: torch.Generator) -> None:

@@ -18,12 +18,14 @@ LEAN = Preset(
     warm_start=3,
     rollouts=RolloutSpec(SelectionSpec(temperature=0.1, termination_threshold=0.5), repeat_penalty=3.0),
     training=Training(
-        network=NetworkSpec(blocks(16, 32), hidden=128),  # of flat policies, which do not plan
+        network=NetworkSpec(blocks(16, 32), hidden=128),  # where the domain declares no places
         train_hi=TrainSpec(5e-3, 64, least=_ROWS, most=_ROWS, idle=_IDLE_HI, dropout=0.0, averaging=0.995, bf16=False),
         train_lo=TrainSpec(
             1e-2, 64, least=_ROWS, most=_ROWS, idle=_IDLE_LO, dropout=0.0, weight_decay=0.1, averaging=0.995, bf16=False
         ),
-        train_flat=TrainSpec(1e-3, 64, least=_ROWS, most=_ROWS, dropout=0.2, averaging=0.995),
+        train_flat=TrainSpec(
+            5e-3, 64, least=_ROWS, most=_ROWS, idle=_IDLE_HI, dropout=0.0, averaging=0.995, bf16=False
+        ),  # as mu, because a flat policy plans as mu does
         train_hi_hybrid=TrainSpec(
             5e-3, 64, least=_HYBRID_ROWS, most=_HYBRID_ROWS, dropout=0.0, averaging=0.995, bf16=False
         ),

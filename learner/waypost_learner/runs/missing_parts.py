@@ -1,6 +1,6 @@
 """Find the parts that a preset uses and that a domain does not provide, and say what is used instead."""
 
-from waypost.domains import Centered, Ending, Placed, Relabeling, Retracing, Viewed, symmetries_of
+from waypost.domains import Centered, Ending, FlatRelabeling, Placed, Relabeling, Retracing, Viewed, symmetries_of
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.policies.networks import PlanningSpec
 
@@ -40,6 +40,10 @@ def missing_parts(learner: Learner) -> dict[str, str]:
         ),
         "relabeling": (
             use.relabeling and mu_imitates and not isinstance(domain, Relabeling),
+            "Labels of one task give no labels of other tasks.",
+        ),
+        "flat relabeling": (
+            use.relabeling and levels.flat and levels.imitating and not isinstance(domain, FlatRelabeling),
             "Labels of one task give no labels of other tasks.",
         ),
         "retracing": (

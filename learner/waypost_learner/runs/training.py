@@ -19,6 +19,7 @@ from waypost_learner.remote.translation import vocabulary
 from waypost_learner.runs import checkpoints
 from waypost_learner.runs.config import NOT_PROVIDED, START, Progress, TrainConfig, config_values, settings_of
 from waypost_learner.runs.driver import Driver, Hooks, Offer
+from waypost_learner.runs.measuring import Measuring
 from waypost_learner.runs.run_queue import RunQueue
 from waypost_learner.runs.setup import Setup, set_up
 from waypost_learner.runs.summary import finish
@@ -37,6 +38,7 @@ class RunOptions:
     threads: int | None = None  # CPU threads; one per core if None
     loggers: tuple[str, ...] = ("tensorboard",)
     server: str | None = None  # the server's address, for the links of loggers to the run's page
+    measure: str | None = None  # instances to measure the policies on after each change; no measurement if None
 
 
 def train(
@@ -66,12 +68,17 @@ def train(
     check(options.loggers)
     setup = set_up(config, options.threads)
     learner = setup.learner
+    measured = None if options.measure is None else learner.domain.instances(options.measure).test
     if connection.annotator is not None:
         OracleExpert(learner.domain)  # refuses a domain without an oracle before a run is created
     run = _find_or_create_run(setup, connection.learner, options)
     path = options.checkpoints / f"{run.id}.safetensors"
     first = _load_checkpoint(path, learner) if options.resume else START
     on_start(run, first.episodes)
+    measuring = None
+    if measured is not None:
+        file = path.with_suffix(".measured.csv")
+        measuring = Measuring(learner, measured, file, first.episodes, lambda: connection.learner.costs(run.id).total)
 
     def save(progress: Progress, weights_only: bool) -> None:
         checkpoints.write(path, learner, checkpoints.Header(run.id, config, progress), weights_only)
@@ -80,6 +87,8 @@ def train(
 
         def report(result: wire.EpisodeResult, units: float) -> None:
             tracker.episode(result, units)
+            if measuring is not None:
+                measuring.after(result.episode)
             on_episode(result, units)
 
         hooks = Hooks(
@@ -90,6 +99,8 @@ def train(
         )
         ended, progress = _drive(setup, _queue(connection, run.id), hooks, first)
         learner.train_idle()  # the training that would follow the next query
+        if measuring is not None:
+            measuring.after(progress.episodes)
         save(progress, weights_only=True)
         summary = finish(setup, connection.learner, run.id, ended, time.monotonic() - began)
         tracker.finish(summary)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from waypost.domains import Centered, Placed, Relabeling, Retracing, Viewed, symmetries_of
+from waypost.domains import Centered, FlatRelabeling, Placed, Relabeling, Retracing, Viewed, symmetries_of
 from waypost_learner.algorithms import ALGORITHMS, Algorithm
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.policies.networks import PlanningSpec
@@ -94,8 +94,8 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
         ),
         "planning": (bool(planned), f"no policy of {name} has a view of the domain {domain.name!r} that shows places"),
         "relabeling": (
-            hi and isinstance(domain, Relabeling | Retracing),
-            f"{name} has no mu that imitates, or the domain {domain.name!r} declares no relabeling",
+            levels.imitating and isinstance(domain, FlatRelabeling if levels.flat else Relabeling | Retracing),
+            f"{name} has no policy that imitates, or the domain {domain.name!r} declares no relabeling for it",
         ),
         "monitoring": (
             algorithm.monitored and not config.redraw,

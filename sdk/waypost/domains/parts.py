@@ -216,6 +216,9 @@ class Placed(Protocol):
 Relabeled = tuple[Observation, Subgoal]
 """An observation and a good subgoal for it."""
 
+FlatRelabeled = tuple[Observation, Action]
+"""An observation and a good action for it, toward the task's end."""
+
 
 @runtime_checkable
 class Relabeling(Protocol):
@@ -235,6 +238,17 @@ class Retracing(Protocol):
 
     def retraced(self, demonstration: Trajectory) -> Iterable[Segment]:
         """Return segments of other tasks that follow from a demonstration, as an expert would execute them.
+
+        The function may make the same assumptions as `relabeled`.
+        """
+
+
+@runtime_checkable
+class FlatRelabeling(Protocol):
+    """A domain in which a flat learner's labels of one task give labels of other tasks."""
+
+    def relabeled_actions(self, trajectory: Trajectory, good_actions: Sequence[Action]) -> Iterable[FlatRelabeled]:
+        """Return labels of other tasks that follow from the labels of a full trajectory.
 
         The function may make the same assumptions as `relabeled`.
         """

@@ -124,6 +124,19 @@ def test_expert_trajectories_have_the_measured_horizons_and_few_ties() -> None:
     assert 2 * np.mean(n_segments) + np.sum(n_actions) / len(n_segments) == pytest.approx(64.4, abs=1.0)
 
 
+def test_a_number_after_the_name_draws_other_mazes_of_the_same_kind() -> None:
+    domain = MazeDomain()
+    usual, others = domain.instances("random"), domain.instances("random:1")
+    assert domain.instances("random:0") == usual
+    drawn = {(maze.lava.tobytes(), maze.start, maze.goal) for maze in (*usual.train, *usual.test)}
+    assert not any((maze.lava.tobytes(), maze.start, maze.goal) in drawn for maze in (*others.train, *others.test))
+    assert (others.train, others.test) == maze_set("random", 1)
+    assert domain.instances("corners:1").vary is not None
+    for wrong in ("random:", "random:one", "random:-1", "others:1"):
+        with pytest.raises(ValueError, match="no instances"):
+            domain.instances(wrong)
+
+
 def ask_demonstration(view: dict) -> wire.AskHierDemo:
     return wire.AskHierDemo(
         kind="hier_demo",

@@ -17,11 +17,12 @@ from waypost_learner.domains.maze.maze import (
     Maze,
     cell_of,
     closed_rooms,
+    distances_from,
     moved,
     room_of,
     wall_beside,
 )
-from waypost_learner.domains.maze.relabeling import relabeled, retraced
+from waypost_learner.domains.maze.relabeling import relabeled, relabeled_actions, retraced
 from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.remote.translation import Translator
 from waypost_learner.rollout.simulator import Simulator
@@ -64,6 +65,33 @@ def test_what_a_demonstration_says_of_other_tasks_is_right(maze: Maze) -> None:
 def test_a_demonstration_says_what_is_right_from_each_of_its_places_to_each_other_one(maze: Maze) -> None:
     n_places = len({room_of(tuple(segment.start.view)) for segment in demonstration(maze)})
     assert len(said_of_other_tasks(maze)) >= n_places * (n_places - 1)
+
+
+def is_good_action(picture: np.ndarray, action: Action) -> bool:
+    """Whether an action in what a picture shows is the first of a shortest way to the target."""
+    maze = maze_in(picture)
+    distances = distances_from(maze.lava, maze.goal)
+    return bool(distances[moved(maze.start, action)] == distances[maze.start] - 1)
+
+
+@examples
+@given(mazes())
+def test_what_a_flat_demonstration_says_of_other_tasks_is_right(maze: Maze) -> None:
+    sigma = demonstration(maze)
+    cells = len({tuple(state.view) for segment in sigma for state in segment.states})
+    said = list(relabeled_actions(sigma, [action for segment in sigma for action in segment.actions]))
+    assert len(said) == cells * (cells - 1)
+    assert all(is_good_action(picture, action) for picture, action in said)
+
+
+def test_a_flat_label_that_the_learner_did_not_follow_ends_the_path_that_says_something_of_other_tasks() -> None:
+    maze = Maze(closed_rooms(), (1, 1), (3, 3))
+    down, right = (domain.actions.index(name) for name in ("down", "right"))
+    tau = walked(maze, [down, right, right, down], None)
+    said = list(relabeled_actions(tau, [down, down, right, down]))  # the first step to the right was no good one
+    walks = {(maze_in(picture).start, maze_in(picture).goal) for picture, _ in said}
+    first, second = [(1, 1), (2, 1)], [(2, 2), (2, 3), (3, 3)]
+    assert walks == {(a, b) for path in (first, second) for a in path for b in path if a != b}
 
 
 def test_a_way_around_lava_before_a_door_says_nothing_of_the_way_through_it() -> None:
@@ -130,7 +158,7 @@ def test_a_way_back_looks_as_it_does_to_who_goes_it(maze: Maze) -> None:
         assert all((pictures[tuple(state.view)] == state.observation).all() for state in segment.states)
 
 
-def walked(maze: Maze, actions: list[Action], subgoal: Subgoal) -> Trajectory:
+def walked(maze: Maze, actions: list[Action], subgoal: Subgoal | None) -> Trajectory:
     """A demonstration of one segment, by somebody who makes mistakes."""
     simulator = Simulator(domain)
     states = [simulator.reset(maze)]

@@ -18,7 +18,7 @@ SIDE = 7
 GRID = Grid(patch=3, stride=1, moves=STEPS)
 SPEC = PlanningSpec(GRID, horizon=SIDE**2, features=5)
 WALL, TARGET = 0, 1
-FAR = 12  # steps; what costs more than 80 is all one to a network that plans
+FAR = 48  # steps: more than 80, which float32 cannot tell from more
 
 
 def net(outputs: int = 4, spec: PlanningSpec = SPEC) -> PlanningNet:
@@ -28,17 +28,17 @@ def net(outputs: int = 4, spec: PlanningSpec = SPEC) -> PlanningNet:
 
 
 def with_known_costs(outputs: int = 4) -> PlanningNet:
-    """A network that is told: a step costs 5; into a wall, and ending elsewhere than on the target, 75."""
+    """A network that is told: a step costs 5; into a wall, and ending elsewhere than on the target, 600."""
     network = net(outputs)
     for parameter in network.parameters():
         parameter.zero_()
     for feature, (row, column) in enumerate(STEPS):
         network.places.weight[feature, WALL, 1 + row, 1 + column] = 1
-        network.costs.weight[feature, feature] = 70
+        network.costs.weight[feature, feature] = 595
     network.places.weight[4, TARGET, 1, 1] = 1
-    network.costs.weight[4, 4] = -75
+    network.costs.weight[4, 4] = -600
     assert network.costs.bias is not None
-    network.costs.bias[:4], network.costs.bias[4] = 5, 75
+    network.costs.bias[:4], network.costs.bias[4] = 5, 600
     return network
 
 

@@ -20,7 +20,7 @@ from waypost_learner.domains.maze.maze import (
     room_of,
 )
 from waypost_learner.domains.maze.oracle import MazeOracle
-from waypost_learner.domains.maze.relabeling import relabeled, retraced
+from waypost_learner.domains.maze.relabeling import relabeled, relabeled_actions, retraced
 from waypost_learner.domains.maze.symmetries import symmetries
 from waypost_learner.domains.maze.views import FLAT_VIEW, HI_VIEW, LO_VIEW
 
@@ -40,6 +40,7 @@ class MazeDomain:
     symmetries = symmetries()
     hi_view, lo_view, flat_view = HI_VIEW, LO_VIEW, FLAT_VIEW
     relabeled = staticmethod(relabeled)
+    relabeled_actions = staticmethod(relabeled_actions)
     retraced = staticmethod(retraced)
 
     def __init__(self) -> None:
@@ -52,15 +53,20 @@ class MazeDomain:
     def instances(self, name: str) -> InstanceSets:
         """Return a set of mazes: `random`, `corners` (1,000 training and 1,000 test mazes each), or an `.npz` file.
 
-        The mazes of a file are used for training and for testing.
+        `random:1` has mazes of the same kind, drawn with seed 1 instead of 0; so has every other number. The mazes of
+        a file are used for training and for testing.
 
         Raises:
             ValueError: the name is unknown, or the file is not a valid maze set.
         """
-        if name in KINDS:
-            return InstanceSets(*maze_set(name), vary=with_doors_redrawn if name == "corners" else None)
+        kind, _, seed = name.partition(":")
+        if kind in KINDS and (seed.isdecimal() or name == kind):
+            return InstanceSets(*maze_set(kind, int(seed or 0)), vary=with_doors_redrawn if kind == "corners" else None)
         if not name.endswith(".npz"):
-            raise ValueError(f"the maze has no instances {name!r}; use {', '.join(KINDS)}, or an .npz file")
+            raise ValueError(
+                f"the maze has no instances {name!r}; use {', '.join(KINDS)}, one of them with the seed of the draw, "
+                "such as random:1, or an .npz file"
+            )
         mazes = load_mazes(Path(name))
         return InstanceSets(train=mazes, test=mazes)
 

@@ -10,7 +10,7 @@ from itertools import groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from waypost.domains import Relabeled
+from waypost.domains import FlatRelabeled, Relabeled
 from waypost.trajectory import Action, Segment, State, Subgoal, Trajectory
 from waypost_learner.domains.maze.env import AGENT, LAVA, TARGET, TRAIL
 from waypost_learner.domains.maze.maze import GO_TO_TARGET, MOVES, PITCH, Cell, Room, cell_of, room_beside, room_of
@@ -32,6 +32,21 @@ def relabeled(trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> Itera
                     yield _start_observation(lava, here, target), subgoals[i] if j > i else subgoals[i - 1] ^ OPPOSITE
             for target in _other_cells_of_room(lava, here):
                 yield _start_observation(lava, here, target), GO_TO_TARGET
+
+
+def relabeled_actions(trajectory: Trajectory, good_actions: Sequence[Action]) -> Iterator[FlatRelabeled]:
+    """Yield labels of other tasks for a flat learner: from each cell on a labeled path to each other cell on it.
+
+    A labeled path is a part of the trajectory in which the learner did what the label says. It is used in both
+    directions. Like the views of mu, the observations have no trail but the agent's own cell.
+    """
+    lava = trajectory[0].start.observation[1] == LAVA
+    for path in _good_paths(trajectory, good_actions, lava):
+        for i, here in enumerate(path):
+            for j, target in enumerate(path):
+                if here != target:
+                    step = path[i + 1] if j > i else path[i - 1]
+                    yield _start_observation(lava, here, target), _action_between(here, step)
 
 
 def retraced(demonstration: Trajectory) -> Iterator[Segment]:
@@ -81,8 +96,30 @@ def _segment_to(
 
 def _action_at(path: Sequence[Cell], i: int) -> Action:
     """Return the action that leads to the i-th cell of a path."""
-    (row, column), (to_row, to_column) = path[i - 1], path[i]
-    return MOVES.index((to_row - row, to_column - column))
+    return _action_between(path[i - 1], path[i])
+
+
+def _action_between(cell: Cell, to: Cell) -> Action:
+    """Return the action that leads from a cell to the cell beside it."""
+    return MOVES.index((to[0] - cell[0], to[1] - cell[1]))
+
+
+def _good_paths(
+    trajectory: Trajectory, good_actions: Sequence[Action], lava: NDArray[np.bool_]
+) -> Iterator[list[Cell]]:
+    """Yield the cells of each longest part of a trajectory in which every action was good."""
+    segments = [(segment.states[:-1], segment.actions) for segment in trajectory]
+    cells = [cell_of(state.view) for states, _ in segments for state in states]
+    cells.append(cell_of(trajectory[-1].states[-1].view))
+    taken = [action for _, actions in segments for action in actions]
+    path = cells[:1]
+    for action, good, there in zip(taken, good_actions, cells[1:], strict=True):
+        if action == good and there != path[-1] and not lava[there]:
+            path.append(there)
+        else:
+            yield path
+            path = [there]
+    yield path
 
 
 def _labeled_paths(

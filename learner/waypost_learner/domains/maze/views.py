@@ -85,7 +85,7 @@ def _visible_span(place: int) -> tuple[int, int]:
 
 HI_VIEW = View((3, _HI_SIDE, _HI_SIDE), _maze_around_room, _ROOM_GRID)
 LO_VIEW = View((3, 2 * _REACH + 1, 2 * _REACH + 1), _room_around_agent, _CELL_GRID)
-FLAT_VIEW = View((3, 2 * SIZE - 1, 2 * SIZE - 1), _maze_around_agent)  # no grid: planning 100 steps ahead is slow
+FLAT_VIEW = View((3, 2 * SIZE - 1, 2 * SIZE - 1), _maze_around_agent, _CELL_GRID)
 
 
 def _agent_cell(observation: Picture) -> Cell:
