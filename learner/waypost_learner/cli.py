@@ -64,6 +64,10 @@ def train(
     ] = None,
     redraw: Annotated[bool, typer.Option(help="Draw instances until the learner fails on one.")] = False,
     head_start: Annotated[float | None, typer.Option(help="Share of an optimal trajectory to begin with.")] = None,
+    told: Annotated[
+        str | None,
+        typer.Option(help="What the learner is told of the domain: nothing, symmetries, centered, crop or structure."),
+    ] = None,
     values: Annotated[
         list[str] | None, typer.Option(help='Values to replace in the preset: "relabeling=false"; can be repeated.')
     ] = None,
@@ -115,6 +119,7 @@ def train(
             redraw,
             head_start,
             environments,
+            told,
             " ".join(values) if values else None,
         )
         setup = set_up(config, threads)  # refuses a wrong configuration before the store is created

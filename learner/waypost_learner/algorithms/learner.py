@@ -83,7 +83,7 @@ class Learner:
 
     def _use(self, key: PolicyKey) -> DomainUse:
         use = self.preset.use
-        return replace(use, centered=False) if self.levels.is_q_function(key) else use
+        return replace(use, centered=False) if use.views and self.levels.is_q_function(key) else use
 
     def _policy(self, key: PolicyKey) -> Policy:
         training, view = self.preset.training, self.views[key]

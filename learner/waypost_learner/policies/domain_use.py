@@ -13,8 +13,9 @@ class DomainUse:
     symmetries: bool = False  # whether each label is also learned in every symmetry of the domain
     tied: bool = False  # whether subgoals that are equal up to a symmetry share one network; needs `symmetries`
     views: bool = False  # whether policies see the domain's views instead of whole observations
-    # Whether policies that imitate see the domain's centered view instead, when they choose actions.
+    # Whether policies see the domain's centered view; with `views`, only policies that imitate, for choosing actions.
     centered: bool = False
+    crop: bool = False  # whether policies of subgoals see the domain's crop when they choose actions
     planning: int | None = None  # features of each place for networks that plan over a view; no planning if None
     relabeling: bool = False  # whether labels and demonstrations also give labels of other tasks
 

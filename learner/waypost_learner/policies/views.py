@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from waypost.domains import Centered, Domain, Symmetry, View, Viewed, symmetries_of
+from waypost.domains import Centered, Cropped, Domain, Symmetry, View, Viewed, symmetries_of
 from waypost.trajectory import Observation
 from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec
@@ -84,7 +84,9 @@ def policy_view(domain: Domain, use: DomainUse, network: NetworkSpec, key: Polic
 
 
 def _view(domain: Domain, use: DomainUse, key: PolicyKey) -> View:
-    if use.centered and isinstance(domain, Centered) and key.level != "hi":
+    if use.crop and isinstance(domain, Cropped) and key.level == "lo":
+        return domain.crop_view
+    if use.centered and isinstance(domain, Centered) and (key.level != "hi" or not use.views):
         return domain.centered_view
     if not use.views or not isinstance(domain, Viewed):
         return View(domain.observation_shape, _unchanged)

@@ -10,6 +10,7 @@ from waypost_learner.presets import montezuma
 from waypost_learner.presets.base import Preset, groups_by_value, value_of
 from waypost_learner.presets.lean import LEAN
 from waypost_learner.presets.paper import PAPER
+from waypost_learner.presets.told import refuse_more_than, told_at_most
 
 Changes = dict[str, "str | Changes"]
 """New values as JSON texts, by name; values of a group are nested."""
@@ -19,21 +20,24 @@ PRESETS_OF = {("montezuma", "lean"): montezuma.LEAN, ("montezuma", "paper"): mon
 """The presets of single domains, by domain and name, where they differ from `PRESETS`."""
 
 
-def find_preset(name: str, values: str | None = None, domain: str | None = None) -> Preset:
+def find_preset(name: str, values: str | None = None, domain: str | None = None, told: str | None = None) -> Preset:
     """Return a preset in which `values`, such as "relabeling=false train_hi.batch=32", replace its own values.
 
     Args:
         name: the preset's name.
         values: the values to replace; none if None.
         domain: the name of the domain, which may have its own preset of this name.
+        told: the level of what the learner is told (`waypost_learner.presets.told`); what the preset uses if None.
 
     Raises:
-        ValueError: no preset or value has this name (the message lists the names), a text is no value of its type, or
-            the values contradict each other.
+        ValueError: no preset, value or level has this name (the message lists the names), a text is no value of its
+            type, the values contradict each other, or they use more of the domain than the level allows.
     """
     if name not in PRESETS:
         raise ValueError(f"there is no preset {name!r}; the presets are: {', '.join(sorted(PRESETS))}")
     preset = PRESETS_OF.get((domain or "", name), PRESETS[name])
+    if told is not None:
+        preset = told_at_most(preset, told)
     groups = groups_by_value(preset)
     new: dict[str, Any] = {}
     for value, text in parse_values(values).items():
@@ -42,7 +46,10 @@ def find_preset(name: str, values: str | None = None, domain: str | None = None)
             new[value] = _changed(value, get_type_hints(type(owner))[value], value_of(preset, value), text)
         else:
             new[value] = None  # `with_values` refuses it and lists the names
-    return preset.with_values(**new)
+    preset = preset.with_values(**new)
+    if told is not None:
+        refuse_more_than(told, preset)
+    return preset
 
 
 def parse_values(values: str | None) -> Changes:

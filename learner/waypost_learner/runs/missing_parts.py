@@ -1,6 +1,16 @@
 """Find the parts that a preset uses and that a domain does not provide, and say what is used instead."""
 
-from waypost.domains import Centered, Ending, FlatRelabeling, Placed, Relabeling, Retracing, Viewed, symmetries_of
+from waypost.domains import (
+    Centered,
+    Cropped,
+    Ending,
+    FlatRelabeling,
+    Placed,
+    Relabeling,
+    Retracing,
+    Viewed,
+    symmetries_of,
+)
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.policies.networks import PlanningSpec
 
@@ -27,8 +37,12 @@ def missing_parts(learner: Learner) -> dict[str, str]:
         "symmetries": (wanted and not symmetries_of(domain), "Labels are learned only as they were given."),
         "views": (use.views and not isinstance(domain, Viewed), "Policies see whole observations."),
         "centered": (
-            use.centered and levels.imitating and not isinstance(domain, Centered),
+            use.centered and (levels.imitating or not use.views) and not isinstance(domain, Centered),
             "No view has the agent in the middle.",
+        ),
+        "crop": (
+            use.crop and not levels.flat and not isinstance(domain, Cropped),
+            "Subpolicies see as much as mu.",
         ),
         "planning": (
             use.planning is not None and not plans,

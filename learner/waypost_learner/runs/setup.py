@@ -58,7 +58,7 @@ def build_learner(config: TrainConfig, threads: int | None) -> Learner:
     """
     levels = find_algorithm(config.algorithm).levels
     domain = find_domain(config.domain)
-    preset = find_preset(config.preset, config.values, domain.name)
+    preset = find_preset(config.preset, config.values, domain.name, config.told)
     if config.warm_start is not None:
         preset = preset.with_values(**{"warm_start_hybrid" if levels.q_lo else "warm_start": config.warm_start})
     start = None if config.head_start is None else head_start(domain, config.head_start)

@@ -4,6 +4,7 @@ from typing import Any
 
 from waypost import wire
 from waypost.client import Client
+from waypost_learner.presets.told import level_of
 from waypost_learner.runs.checkpoints import weights_hash
 from waypost_learner.runs.setup import Setup
 
@@ -24,6 +25,7 @@ def finish(setup: Setup, client: Client, run: str, ended: str, seconds: float) -
         "algorithm": config.algorithm,
         "domain": config.domain,
         "seed": config.seed,
+        "told": level_of(setup.learner.preset, setup.learner.levels.reinforced),
         "episodes": state.episodes_done,
         "success_rate": state.success_rate,
         "cost": {"total": costs.total, "by_kind": {kind: cost.units for kind, cost in costs.by_kind.items()}},

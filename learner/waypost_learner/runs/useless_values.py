@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from waypost.domains import Centered, FlatRelabeling, Placed, Relabeling, Retracing, Viewed, symmetries_of
+from waypost.domains import Centered, Cropped, FlatRelabeling, Placed, Relabeling, Retracing, Viewed, symmetries_of
 from waypost_learner.algorithms import ALGORITHMS, Algorithm
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.policies.networks import PlanningSpec
@@ -14,6 +14,7 @@ from waypost_learner.runs.config import TrainConfig
 _SWITCHES = frozenset(
     {
         "centered",
+        "crop",
         "from_passed",
         "h_hi",
         "h_lo",
@@ -89,8 +90,12 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
         ),
         "views": (isinstance(domain, Viewed), f"the domain {domain.name!r} declares no views"),
         "centered": (
-            isinstance(domain, Centered) and levels.imitating and not levels.q_lo,
+            isinstance(domain, Centered) and ((levels.imitating and not levels.q_lo) or not preset.use.views),
             f"{name} has no policy that imitates actions, or the domain {domain.name!r} declares no centered view",
+        ),
+        "crop": (
+            isinstance(domain, Cropped) and not levels.flat,
+            f"{name} has no subgoals, or the domain {domain.name!r} declares no crop",
         ),
         "planning": (bool(planned), f"no policy of {name} has a view of the domain {domain.name!r} that shows places"),
         "relabeling": (

@@ -6,6 +6,7 @@ from waypost.domains.find import find_domain, installed, place_of
 from waypost.domains.parts import (
     Centered,
     Computed,
+    Cropped,
     Ending,
     FlatRelabeled,
     FlatRelabeling,
@@ -38,6 +39,7 @@ from waypost.domains.parts import (
 __all__ = [
     "Centered",
     "Computed",
+    "Cropped",
     "Domain",
     "DomainFailed",
     "Ending",

@@ -199,7 +199,14 @@ class Viewed(Protocol):
 class Centered(Protocol):
     """A domain that knows where the agent is in an observation."""
 
-    centered_view: View  # for choosing actions and terminations, with the agent in the middle
+    centered_view: View  # with the agent in the middle
+
+
+@runtime_checkable
+class Cropped(Protocol):
+    """A domain that knows how much around the agent matters for the actions toward a subgoal."""
+
+    crop_view: View  # for choosing actions and terminations toward a subgoal, with the agent in the middle
 
 
 @runtime_checkable

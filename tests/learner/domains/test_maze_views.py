@@ -10,10 +10,10 @@ from waypost.domains import Grid, Symmetry, View
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.env import AGENT, TRAIL, MazeEnv
 from waypost_learner.domains.maze.maze import ROOMS, Cell, Maze, moved, room_of, walls
-from waypost_learner.domains.maze.views import FLAT_VIEW, HI_VIEW, LO_VIEW
+from waypost_learner.domains.maze.views import CROP_VIEW, FLAT_VIEW, HI_VIEW, LO_VIEW
 
 domain = MazeDomain()
-views = st.sampled_from([HI_VIEW, LO_VIEW, FLAT_VIEW])
+views = st.sampled_from([HI_VIEW, LO_VIEW, FLAT_VIEW, CROP_VIEW])
 
 
 def seen_from(maze: Maze, cell: Cell) -> np.ndarray:

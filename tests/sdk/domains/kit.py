@@ -72,6 +72,7 @@ class LineDomain:
     lo_view: Any = View((CELLS,), whole)
     flat_view: Any = View((CELLS,), whole)
     centered_view: Any = View((CELLS,), whole)
+    crop_view: Any = View((CELLS,), whole)
 
     def __init__(self) -> None:
         self.oracle: Any = LineOracle()

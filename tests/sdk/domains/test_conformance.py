@@ -92,6 +92,10 @@ FAULTS: dict[str, tuple[Fault, str]] = {
         lambda: with_members(centered_view=View((3,), lambda seen: seen)),
         "centered_view.observe returns the shape (6,)",
     ),
+    "a crop of another shape": (
+        lambda: with_members(crop_view=View((3,), lambda seen: seen)),
+        "crop_view.observe returns the shape (6,)",
+    ),
     "a symmetry that loses an action": (
         lambda: with_members(symmetries=(Symmetry(lambda seen: seen, (0, 1), (0, 0)),)),
         "no reordering of all 2 actions",

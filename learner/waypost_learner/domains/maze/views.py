@@ -57,6 +57,12 @@ def _maze_around_agent(observation: Picture) -> Picture:
     return seen
 
 
+def _cells_around_agent(observation: Picture) -> Picture:
+    """Return the cells up to five steps from the agent in each direction, float32[3, 11, 11], centered on the agent."""
+    around = slice(SIZE - 1 - _REACH, SIZE + _REACH)
+    return np.ascontiguousarray(_maze_around_agent(observation)[:, around, around])
+
+
 def _with_nearest_doors(observation: Picture) -> Picture:
     """Return the observation with only the doors of each wall that are nearest to the agent; the others become lava.
 
@@ -86,6 +92,8 @@ def _visible_span(place: int) -> tuple[int, int]:
 HI_VIEW = View((3, _HI_SIDE, _HI_SIDE), _maze_around_room, _ROOM_GRID)
 LO_VIEW = View((3, 2 * _REACH + 1, 2 * _REACH + 1), _room_around_agent, _CELL_GRID)
 FLAT_VIEW = View((3, 2 * SIZE - 1, 2 * SIZE - 1), _maze_around_agent, _CELL_GRID)
+CENTERED_VIEW = View(FLAT_VIEW.shape, _maze_around_agent)
+CROP_VIEW = View(LO_VIEW.shape, _cells_around_agent)
 
 
 def _agent_cell(observation: Picture) -> Cell:

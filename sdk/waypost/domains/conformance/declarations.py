@@ -11,6 +11,7 @@ from waypost.domains.conformance.episodes import trials
 from waypost.domains.contract import Domain, Horizons
 from waypost.domains.parts import (
     Centered,
+    Cropped,
     Ending,
     Pictured,
     Placed,
@@ -100,6 +101,8 @@ def parts_fit(domain: Domain) -> Iterator[str]:
             yield from _view(name, getattr(domain, name), observation)
     if isinstance(domain, Centered):
         yield from _view("centered_view", domain.centered_view, observation)
+    if isinstance(domain, Cropped):
+        yield from _view("crop_view", domain.crop_view, observation)
     for number, symmetry in enumerate(symmetries_of(domain)):
         for what, names in (("subgoals", domain.subgoals), ("actions", domain.actions)):
             if sorted(getattr(symmetry, what)) != list(range(len(names))):
