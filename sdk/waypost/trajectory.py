@@ -42,6 +42,7 @@ class Segment:
     rewards: tuple[float, ...] = ()  # r_1 .. r_H of the environment
     outcome: Outcome | None = None  # how the subgoal ended if terminations are given; None if it was cut off
     final: bool = False  # whether the environment terminated in the last state (a time limit does not count)
+    led: bool = False  # whether it began with given actions, so that it is no attempt of the policy alone
 
     @property
     def start(self) -> State:

@@ -1,9 +1,10 @@
 """A learner: its policies, the data buffers they learn from, and rollouts under them."""
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 from itertools import chain
 from typing import Any
 
@@ -11,10 +12,11 @@ import numpy as np
 import torch
 
 from waypost.domains import Domain, Placed, Symmetry, symmetries_of
-from waypost.trajectory import Trajectory
+from waypost.trajectory import Segment, State, Trajectory
 from waypost_learner.policies.datasets import Dataset
 from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.dqn import DqnSpec, QFunction
+from waypost_learner.policies.exploration import Exploration
 from waypost_learner.policies.imitation import Policy
 from waypost_learner.policies.labels import (
     Derives,
@@ -29,12 +31,14 @@ from waypost_learner.policies.views import policy_view
 from waypost_learner.presets.base import Preset
 from waypost_learner.rollout import streams
 from waypost_learner.rollout.experience import Experience, experience_of
+from waypost_learner.rollout.lead import NO_LEAD, Lead
 from waypost_learner.rollout.policy_keys import META, PolicyKey, pi
 from waypost_learner.rollout.rollout import (
     Behavior,
     Rollout,
     flat_rollout,
     hierarchical_rollout,
+    no_lead,
     run,
     run_all,
     unique_place,
@@ -73,6 +77,7 @@ class Learner:
         self.learned: dict[PolicyKey, Policy | QFunction] = {**self.imitators, **self.q}
         self.policies = {key: view.wrap(self.learned[view.owner]) for key, view in self.views.items()}
         self.data = {key: Dataset(self.views[key].view.shape) for key in self.imitators}
+        self.explorations = dict(self._explorations(keys))
         self._together: Sequence[Start] = ()  # whose rollouts `roll_out` makes when it is given the first of them
         self._rolled_out: dict[Start, Trajectory] = {}  # their rollouts that were not returned yet
         self.due: list[PolicyKey] = []  # the policies that `train_idle` trains
@@ -98,6 +103,12 @@ class Learner:
 
     def _dqn(self, key: PolicyKey) -> DqnSpec:
         return self.preset.training.dqn_for(None if key.subgoal is None else self.domain.subgoals[key.subgoal])
+
+    def _explorations(self, keys: Sequence[PolicyKey]) -> Iterator[tuple[PolicyKey, Exploration]]:
+        """Yield the exploration of each subgoal that is explored. It needs a domain that declares places."""
+        for key in keys if isinstance(self.domain, Placed) else ():
+            if key.level == "lo" and self.levels.is_q_function(key) and self._dqn(key).exploration.wander:
+                yield key, Exploration(self._dqn(key).exploration, len(self.domain.actions))
 
     def _n_choices(self, key: PolicyKey) -> int:
         return len(self.domain.subgoals if key == META else self.domain.actions)
@@ -158,18 +169,29 @@ class Learner:
         exploring = {key: self.q[view.owner] for key, view in self.views.items() if view.owner in self.q}
         rollouts = self.preset.rollouts
         h_lo = rollouts.h_lo_hybrid if self.levels.q_lo and rollouts.h_lo_hybrid else rollouts.h_lo
+        rng = np.random.default_rng([self.seed, stream, number])
         behavior = Behavior(
             rollouts.choosing,
-            np.random.default_rng([self.seed, stream, number]),
+            rng,
             rollouts.h_hi or self.domain.horizons.hi,
             h_lo or self.domain.horizons.lo,
             {key: q.epsilon if stream == streams.TRAIN else 0.0 for key, q in exploring.items()},
             self.levels.q_lo,
             rollouts.repeat_penalty,
-            self.domain.place if isinstance(self.domain, Placed) else unique_place,
+            self._place,
+            partial(self._lead, rng) if stream == streams.TRAIN else no_lead,
         )
         roll_out = flat_rollout if self.levels.flat else hierarchical_rollout
         return roll_out(simulator, instance, behavior)
+
+    def _lead(self, rng: np.random.Generator, key: PolicyKey, state: State) -> Lead:
+        """Return how an attempt at a subgoal begins in training."""
+        if key not in self.explorations:
+            return NO_LEAD
+        return self.explorations[key].lead(self._place(state.view), self.q[self.views[key].owner].success, rng)
+
+    def _place(self, view: Any) -> Hashable:
+        return self.domain.place(view) if isinstance(self.domain, Placed) else unique_place(view)
 
     # --- learning
 
@@ -211,11 +233,20 @@ class Learner:
     def _experience_of(self, labels: Labels) -> Iterator[tuple[PolicyKey, Experience]]:
         """Yield what Q-functions learn from: rollouts, and demonstrated segments, which end where they reached."""
         for key, trajectory in labels.experience:
-            yield key, self._experience(key, trajectory)
+            best = [self._explored(key, segment) for segment in trajectory if key in self.explorations]
+            yield key, replace(self._experience(key, trajectory), demonstrated=any(best))
         for segment in chain.from_iterable(labels.demonstrations):
             if segment.subgoal is not None:
+                key = pi(segment.subgoal)
                 shown = replace(segment, outcome="reached") if segment.terminated else segment
-                yield pi(segment.subgoal), replace(self._experience(pi(segment.subgoal), (shown,)), demonstrated=True)
+                if key in self.explorations:
+                    self._explored(key, shown)
+                yield key, replace(self._experience(key, (shown,)), alone=False, demonstrated=True)
+
+    def _explored(self, key: PolicyKey, segment: Segment) -> bool:
+        """Let a subgoal's exploration learn from a segment; return whether it is one of the shortest successes."""
+        places = [self._place(state.view) for state in segment.states]
+        return self.explorations[key].learn(segment.actions, places, segment.outcome == "reached")
 
     def _experience(self, key: PolicyKey, trajectory: Trajectory) -> Experience:
         dqn = self._dqn(key)

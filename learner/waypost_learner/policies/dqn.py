@@ -17,6 +17,7 @@ from torch.nn import functional
 
 from waypost.trajectory import Observation
 from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision, to_device
+from waypost_learner.policies.exploration import ExplorationSpec
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec, build_network
 from waypost_learner.policies.replay import Replay
 from waypost_learner.rollout.experience import Experience, PseudoReward, Returns
@@ -48,6 +49,7 @@ class DqnSpec:
     from_success: bool = False  # whether experience is kept only from a subgoal's first success on
     stop_above: float | None = None  # no updates above this success rate of the last 100 attempts; always if None
     margin: float = 0.0  # by which a demonstrated choice should exceed the others; 0 ignores who chose
+    exploration: ExplorationSpec = field(default_factory=ExplorationSpec)  # of subgoals
     symmetries: bool = True  # whether each transition is also learned in every symmetry of the domain
     bf16: bool = True  # mixed precision where the device supports bf16
 
@@ -109,17 +111,22 @@ class QFunction:
         return float(np.interp(float(self.steps), steps, values))
 
     @property
+    def success(self) -> float:
+        """The share of its last attempts, at most 100, that succeeded; 0 without attempts."""
+        return sum(self.attempts) / max(1, len(self.attempts))
+
+    @property
     def mastered(self) -> bool:
         """Whether the last 100 attempts succeeded so often that there are no more updates."""
         if self.spec.stop_above is None or len(self.attempts) < ATTEMPTS:
             return False
-        return sum(self.attempts) / ATTEMPTS > self.spec.stop_above
+        return self.success > self.spec.stop_above
 
     def attempt(self, experience: Experience) -> None:
-        """Count an attempt at the subgoal. A demonstration is no attempt, but it is a success."""
+        """Count an attempt at the subgoal. What others chose too is no attempt, but it can be a success."""
         if experience.outcome is not None:
             self.succeeded = self.succeeded or experience.outcome == "reached"
-            if not experience.demonstrated:
+            if experience.alone:
                 self.attempts.append(experience.outcome == "reached")
 
     def remember(self, experience: Experience) -> None:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from waypost_learner.policies.domain_use import NOTHING_DECLARED, DomainUse
+from waypost_learner.policies.exploration import ExplorationSpec
 from waypost_learner.presets.base import Preset
 
 _SYMMETRIES = DomainUse(symmetries=True, tied=True)
@@ -31,11 +32,11 @@ def told_at_most(preset: Preset, level: str) -> Preset:
         return preset
     if level not in LEVELS:
         raise ValueError(f"there is no level {level!r} of what a learner is told; use {', '.join(LEVELS)}, {STRUCTURE}")
-    dqn = replace(preset.training.dqn, symmetries=LEVELS[level].symmetries)
+    dqn = replace(preset.training.dqn, symmetries=LEVELS[level].symmetries, exploration=ExplorationSpec())
     return replace(
         preset,
         use=LEVELS[level],
-        rollouts=replace(preset.rollouts, repeat_penalty=0.0),  # it needs to know places
+        rollouts=replace(preset.rollouts, repeat_penalty=0.0),  # it needs to know places, like exploration
         training=replace(preset.training, dqn=dqn),
     )
 
@@ -52,9 +53,15 @@ def level_of(preset: Preset, q_functions: bool) -> str:
         used = replace(used, symmetries=True)
     for level, allowed in LEVELS.items():
         within = all(not value or value == vars(allowed)[name] for name, value in vars(used).items())
-        if within and preset.rollouts.repeat_penalty == 0:
+        if within and not _uses_places(preset, q_functions):
             return level
     return STRUCTURE
+
+
+def _uses_places(preset: Preset, q_functions: bool) -> bool:
+    training = preset.training
+    explores = training.dqn.exploration.wander or any("exploration" in one for one in training.dqn_of.values())
+    return preset.rollouts.repeat_penalty > 0 or bool(q_functions and explores)
 
 
 def refuse_more_than(level: str, preset: Preset) -> None:

@@ -29,7 +29,8 @@ class Experience:
     observations: tuple[Observation, ...]
     transitions: tuple[Transition, ...]
     outcome: Outcome | None = None  # of the subgoal; None if it was cut off, or for other experience
-    demonstrated: bool = False  # whether an expert chose
+    alone: bool = True  # whether only the policy chose, so that it is an attempt of its own
+    demonstrated: bool = False  # whether to imitate the choices: an expert's, or those of one of the shortest successes
 
     def observed(self, observe: Callable[[Observation], Observation]) -> "Experience":
         """Return the same experience with each observation mapped by `observe`."""
@@ -75,7 +76,7 @@ def of_subgoal(segment: Segment, pseudo: PseudoReward, returns: Returns) -> Expe
     if segment.outcome == "reached" or (segment.outcome == "failed" and ends):
         rewards[-1] = getattr(pseudo, segment.outcome)
     experience = _experience(segment, rewards, ends, returns)
-    return replace(experience, outcome=segment.outcome)
+    return replace(experience, outcome=segment.outcome, alone=not segment.led)
 
 
 def of_actions(segment: Segment, returns: Returns) -> Experience:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from waypost.trajectory import Observation, Segment, State, Subgoal, Trajectory
+from waypost_learner.rollout.lead import NO_LEAD, Lead
 from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 from waypost_learner.rollout.simulator import Simulator
 
@@ -62,6 +63,11 @@ def unique_place(_: Any) -> Hashable:
     return object()
 
 
+def no_lead(_policy: PolicyKey, _state: State) -> Lead:
+    """Return no actions, so that the policy chooses from the start."""
+    return NO_LEAD
+
+
 @dataclass(frozen=True)
 class Behavior:
     """The behavior policy of one rollout: how it turns outputs into choices, and when it ends subgoals."""
@@ -74,6 +80,7 @@ class Behavior:
     terminations_given: bool = False  # whether the domain gives terminal(s; g) (Algorithm 3), instead of beta_g
     repeat_penalty: float = 0.0  # subtracted from a subgoal's logit for each earlier choice of it in the same place
     place: Callable[[Any], Hashable] = unique_place  # maps a state's JSON view to its place
+    lead: Callable[[PolicyKey, State], Lead] = no_lead  # how an attempt at a subgoal begins in a state
 
     def choose(self, policy: PolicyKey, logits: NDArray[np.float32]) -> int:
         """Return a choice given a policy's logits float32[n]: drawn from their softmax, or epsilon-greedy."""
@@ -114,20 +121,35 @@ def execute_subgoal(
     """
     key, states, actions, rewards = pi(subgoal), [state], list[int](), list[float]()
     terminated, outcome = False, None
-    while not terminated and not simulator.ended and len(actions) < behavior.h_lo:
-        logits, termination = yield Consult(key, states[-1])
-        if not behavior.terminations_given and actions and termination > behavior.choosing.termination_threshold:
-            terminated = True
-            break
-        actions.append(behavior.choose(key, logits))
-        states.append(simulator.step(actions[-1]))
+    lead = behavior.lead(key, state)
+    most = min(behavior.h_lo, len(lead.actions)) if lead.alone else behavior.h_lo
+    while not terminated and not simulator.ended and len(actions) < most:
+        if len(actions) < len(lead.actions):
+            action = lead.actions[len(actions)]
+        else:
+            logits, termination = yield Consult(key, states[-1])
+            if not behavior.terminations_given and actions and termination > behavior.choosing.termination_threshold:
+                terminated = True
+                break
+            action = behavior.choose(key, logits)
+        actions.append(action)
+        states.append(simulator.step(action))
         rewards.append(simulator.reward)
         if behavior.terminations_given:
             outcome = simulator.outcome(state, subgoal)
-            if outcome is None and len(actions) == behavior.h_lo:
+            if outcome is None and len(actions) == most:
                 outcome = "failed"  # otherwise a subpolicy could go back and forth without a failure
             terminated = outcome is not None
-    return Segment(subgoal, tuple(states), tuple(actions), terminated, tuple(rewards), outcome, simulator.final)
+    return Segment(
+        subgoal,
+        tuple(states),
+        tuple(actions),
+        terminated,
+        tuple(rewards),
+        outcome,
+        simulator.final,
+        led=bool(lead.actions),
+    )
 
 
 def flat_rollout(simulator: Simulator, instance: Any, behavior: Behavior) -> Rollout:

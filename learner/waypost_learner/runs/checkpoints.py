@@ -8,6 +8,7 @@ Tensors, where KEY is a policy's number (`PolicyKey.number`):
 - `trained.KEY.NAME`, `averaged.KEY`: if an average of the weights acts, the trained weights and the number of updates.
 - `target.KEY.NAME`, `counts.KEY`, `attempts.KEY`: a Q-function's target network; its steps, its updates and whether
   any attempt succeeded; its last attempts.
+- `exploration.KEY`: what the exploration of a subgoal knows, as JSON.
 
 The file's metadata holds the `Header` as JSON. No code is stored, so loading a file runs none.
 """
@@ -121,6 +122,9 @@ def _restore(tensors: Tensors, learner: Learner) -> None:
             q.steps, q.updates, succeeded = tensors[f"counts.{n}"].tolist()
             q.succeeded = bool(succeeded)
             q.attempts.extend(tensors[f"attempts.{n}"].tolist())
+    for key, exploration in learner.explorations.items():
+        if f"exploration.{key.number}" in tensors:
+            exploration.load(tensors[f"exploration.{key.number}"].numpy().tobytes().decode())
 
 
 def weights_hash(learner: Learner) -> str:
@@ -155,6 +159,9 @@ def _training_state(learner: Learner) -> Tensors:
         tensors |= {f"data.{key.number}.{name}": tensor for name, tensor in q.replay.tensors().items()}
         tensors[f"counts.{key.number}"] = torch.tensor([q.steps, q.updates, q.succeeded])
         tensors[f"attempts.{key.number}"] = torch.tensor(list(q.attempts), dtype=torch.bool)
+    for key, exploration in learner.explorations.items():
+        known = bytearray(exploration.to_json().encode())
+        tensors[f"exploration.{key.number}"] = torch.frombuffer(known, dtype=torch.uint8)
     return tensors
 
 

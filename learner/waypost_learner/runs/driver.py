@@ -267,13 +267,13 @@ class Driver:
         run(self._learner.rollout(self._test_simulator, instance, streams.TEST, episode), self._learner.policies)
 
     def _attempts(self, episode: OpenEpisode) -> list[wire.Attempt]:
-        """Return the attempts at subgoals from which Q-functions learned in an episode."""
+        """Return the attempts at subgoals from which Q-functions learned in an episode, and which nothing led."""
         assert episode.labels is not None
         return [
             wire.Attempt(subgoal=self._learner.domain.subgoals[key.subgoal], reached=segment.outcome == "reached")
             for key, trajectory in episode.labels.experience
             for segment in trajectory
-            if key.subgoal is not None and segment.outcome is not None
+            if key.subgoal is not None and segment.outcome is not None and not segment.led
         ]
 
     def _result(self, episode: OpenEpisode, tested: bool) -> wire.EpisodeResult:

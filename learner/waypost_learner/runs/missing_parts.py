@@ -52,6 +52,13 @@ def missing_parts(learner: Learner) -> dict[str, str]:
             preset.rollouts.repeat_penalty > 0 and not levels.flat and not isinstance(domain, Placed),
             "There is no repeat penalty.",
         ),
+        "places to explore": (
+            preset.training.dqn.exploration.wander > 0
+            and levels.q_lo
+            and not levels.flat
+            and not isinstance(domain, Placed),
+            "Attempts at subgoals do not explore.",
+        ),
         "relabeling": (
             use.relabeling and mu_imitates and not isinstance(domain, Relabeling),
             "Labels of one task give no labels of other tasks.",

@@ -79,6 +79,10 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
         ),
         "dqn": (levels.reinforced, f"{name} has no Q-function"),
         "dqn_of": (levels.q_lo and not levels.flat, f"{name} has no Q-function of a subgoal"),
+        "dqn.exploration": (
+            levels.q_lo and not levels.flat and isinstance(domain, Placed),
+            f"{name} has no Q-function of a subgoal, or the domain {domain.name!r} declares no places",
+        ),
         "dqn.pseudo": (levels.q_lo and not levels.flat, f"{name} has no Q-function of a subgoal"),
         "symmetries": (
             bool(symmetries_of(domain)) and (levels.imitating or preset.use.tied),

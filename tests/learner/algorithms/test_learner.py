@@ -1,5 +1,7 @@
 """A learner: which policies it has, what each is given to see, and what it learns from."""
 
+from collections import deque
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,19 +11,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.learner.kit import TINY, TINY_LEAN, drawn_mazes, examples, segment
 
-from waypost.trajectory import Segment, Trajectory, n_steps
+from waypost.trajectory import Segment, State, Trajectory, n_steps
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.views import LO_VIEW
 from waypost_learner.domains.montezuma.domain import MontezumaDomain
 from waypost_learner.policies.datasets import UNLABELED
+from waypost_learner.policies.exploration import ExplorationSpec
 from waypost_learner.policies.imitation import Policy, TrainSpec
 from waypost_learner.policies.labels import Labels, LoLabels
 from waypost_learner.policies.levels import Levels
 from waypost_learner.policies.networks import ConvNet, DenseNet, PlanningNet
 from waypost_learner.presets import find_preset
 from waypost_learner.rollout.policy_keys import META, pi
+from waypost_learner.rollout.rollout import run
+from waypost_learner.rollout.streams import TEST
 from waypost_learner.runs.missing_parts import missing_parts
 
 maze = MazeDomain()
@@ -198,3 +203,57 @@ def test_the_same_start_state_is_rolled_out_again_from_its_beginning() -> None:
     s = learner.start(CorridorDomain().instances("random").train[0], 3)
     assert contents(learner.roll_out(s)) == contents(learner.roll_out(s))
     assert s.simulator.steps == n_steps(learner.roll_out(s))
+
+
+class PlacedCorridor(CorridorDomain):
+    """The corridor, in which a state's place is its cell."""
+
+    def place(self, state: Any) -> int:
+        return int(state)
+
+
+def exploring(domain: Any) -> Learner:
+    preset = TINY.with_values(dqn=replace(TINY.training.dqn, exploration=ExplorationSpec(wander=4)))
+    return Learner(domain, preset, seed=0, levels=Levels(q_lo=True), threads=1)
+
+
+def attempted(actions: tuple[int, ...], led: bool) -> Segment:
+    """An attempt at `east` that begins in cell 1, where its aim is cell 4."""
+    states = [1 + sum(1 if one else -1 for one in actions[:step]) for step in range(len(actions) + 1)]
+    outcome = "reached" if states[-1] == 4 else "failed"
+    observed = tuple(State(np.zeros(CorridorDomain.observation_shape, np.float32), cell) for cell in states)
+    return Segment(1, observed, actions, terminated=True, outcome=outcome, led=led)
+
+
+def learn(learner: Learner, segment: Segment) -> None:
+    labels = Labels()
+    labels.append_experience(pi(1), (segment,))
+    learner.learn(labels)
+
+
+def test_training_explores_and_tests_do_not() -> None:
+    learner = exploring(PlacedCorridor())
+    instance = learner.domain.instances("random").train[0]
+    trained = learner.roll_out(learner.start(instance, 0))
+    assert all(segment.led and len(segment.actions) <= 4 for segment in trained)
+    tested = run(learner.rollout(learner.make_simulator(), instance, TEST, 0), learner.policies)
+    assert not any(segment.led for segment in tested)
+
+
+def test_only_what_the_policy_did_alone_counts_as_an_attempt_and_the_best_successes_are_demonstrations() -> None:
+    learner = exploring(PlacedCorridor())
+    q, replay = learner.q[pi(1)], learner.q[pi(1)].replay
+    learn(learner, attempted((1, 0, 0), led=True))
+    assert (q.attempts, q.succeeded, replay.tensors()["demonstrated"].tolist()) == (deque(), False, [False] * 3)
+    learn(learner, attempted((1, 1, 1), led=True))
+    assert (q.attempts, q.succeeded, replay.tensors()["demonstrated"].tolist()[3:]) == (deque(), True, [True] * 3)
+    learn(learner, attempted((1, 0, 1, 1, 1), led=False))
+    assert list(q.attempts) == [True]
+    assert learner.explorations[pi(1)].known["1"].successes == [(1, 1, 1), (1, 0, 1, 1, 1)]
+
+
+def test_a_domain_without_places_is_not_explored_and_the_run_says_so() -> None:
+    learner = exploring(CorridorDomain())
+    assert learner.explorations == {}
+    assert missing_parts(learner)["places to explore"] == "Attempts at subgoals do not explore."
+    assert "places to explore" not in missing_parts(exploring(PlacedCorridor()))

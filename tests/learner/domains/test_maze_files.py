@@ -189,5 +189,5 @@ def test_a_missing_file_is_refused_by_its_name(tmp_path: Path) -> None:
 
 
 def test_instances_that_do_not_exist_are_refused_with_those_that_do() -> None:
-    with pytest.raises(ValueError, match=r"'circles'; use random, corners, or an \.npz file"):
+    with pytest.raises(ValueError, match=r"'circles'; use random, corners, .*or an \.npz file"):
         MazeDomain().instances("circles")

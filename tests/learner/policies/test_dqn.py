@@ -92,8 +92,8 @@ def test_nothing_is_learned_before_there_is_the_least_experience() -> None:
     assert (q.steps, q.updates) == (20, 0)
 
 
-def attempt(outcome: Outcome | None, demonstrated: bool = False) -> Experience:
-    return replace(chain(), outcome=outcome, demonstrated=demonstrated)
+def attempt(outcome: Outcome | None, alone: bool = True) -> Experience:
+    return replace(chain(), outcome=outcome, alone=alone)
 
 
 def test_experience_can_be_kept_only_from_the_first_success_on() -> None:
@@ -124,7 +124,7 @@ def test_updates_and_exploration_stop_while_the_last_hundred_attempts_succeed_of
 
 def test_a_demonstration_is_a_success_but_no_attempt() -> None:
     q = QFunction((5,), 2, NETWORK, SPEC, 0)
-    q.attempt(attempt("reached", demonstrated=True))
+    q.attempt(attempt("reached", alone=False))
     assert q.succeeded
     assert not q.attempts
 

@@ -68,6 +68,7 @@ def test_values_may_use_less_than_the_level_but_not_more() -> None:
         ("centered=true", "symmetries", "centered"),
         ("crop=true", "centered", "crop"),
         ("repeat_penalty=1", "crop", "structure"),
+        ("dqn.exploration.wander=5", "crop", "structure"),
         ("relabeling=true", "crop", "structure"),
     ):
         with pytest.raises(ValueError, match=rf"than --told {told} allows: leave .* --told {least}"):

@@ -17,6 +17,7 @@ from waypost_learner.domains.corridor import Corridor, CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.generator import maze_set
 from waypost_learner.policies.levels import Levels
+from waypost_learner.rollout.lead import Lead
 from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 from waypost_learner.rollout.rollout import (
     Behavior,
@@ -212,6 +213,30 @@ def test_with_given_terminations_a_subgoal_ends_where_the_domain_says_and_fails_
     backward: Any = {META: Fixed(WEST, 3), pi(WEST): Fixed(1, 2)}  # walks east, toward no aim of the subgoal west
     (first, *_) = run(hierarchical_rollout(Simulator(CorridorDomain()), Corridor(1, 12), behavior), backward)
     assert (len(first.actions), first.outcome) == (6, "failed")
+
+
+@pytest.mark.parametrize(
+    ("alone", "actions", "outcomes"),
+    [(True, [(0, 0), (0, 0)], ["failed", "failed"]), (False, [(0, 0, 1, 1, 1, 1)] * 2, ["reached", "failed"])],
+)
+def test_an_attempt_can_begin_with_given_actions_and_end_with_them(
+    alone: bool, actions: list[tuple[int, ...]], outcomes: list[str]
+) -> None:
+    policies, asked = corridor_policies(beta=0.0), []
+    behavior = Behavior(
+        GREEDY,
+        np.random.default_rng(0),
+        h_hi=2,
+        h_lo=H_LO,
+        terminations_given=True,
+        lead=lambda key, _: asked.append(key) or Lead((0, 0), alone),
+    )
+    sigma = run(hierarchical_rollout(Simulator(CorridorDomain()), Corridor(6, 12), behavior), policies)
+    assert [segment.actions for segment in sigma] == actions
+    assert [segment.outcome for segment in sigma] == outcomes
+    assert all(segment.led for segment in sigma)
+    assert asked == [pi(EAST)] * 2
+    assert len(policies[pi(EAST)].batches) == sum(map(len, actions)) - 4  # the policy is not asked for given actions
 
 
 @pytest.mark.parametrize(

@@ -197,7 +197,7 @@ REINFORCED = [
     "28",
     "--values",
     "warm_start_hybrid=1 train_hi_hybrid.least=64 train_hi_hybrid.most=64 h_hi=2 h_lo_hybrid=12 dqn.least=32"
-    " dqn.capacity=400",
+    " dqn.capacity=400 dqn.exploration.wander=8 dqn.exploration.until=2",
 ]
 
 

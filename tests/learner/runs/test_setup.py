@@ -41,6 +41,7 @@ def test_a_warm_start_is_for_algorithms_that_have_one(algorithm: str) -> None:
         ("hg-dagger-q", "maze", "train_hi.batch=32", "trains it with train_hi_hybrid"),
         ("h-dqn", "maze", "choosing.temperature=0.2", "chooses epsilon-greedily"),
         ("flat-dqn", "maze", "dqn.pseudo.step=-0.1", "has no Q-function of a subgoal"),
+        ("hg-dagger-q", "corridor", "dqn.exploration.wander=9", "the domain .corridor. declares no places"),
         ("hg-dagger", "corridor", "planning=16", "no policy of hg-dagger has a view"),
         ("hg-dagger", "maze", "monitoring.rate=0.8", "monitoring.share is 1"),
         ("h-bc", "maze", "from_passed=true", "in h-bc the expert passes nothing that a policy could imitate"),

@@ -1,0 +1,127 @@
+"""Exploration of a subgoal that random actions do not reach, by places.
+
+Until the first success, an attempt repeats the actions of an earlier one up to a place that was seldom chosen, then
+acts at random (Go-Explore, Ecoffet et al. 2021). After it, some attempts begin with a part of a success, until the
+policy succeeds often by itself (Jump-Start RL, Uchendu et al. 2023). The shortest successes are learned from as
+demonstrations.
+"""
+
+import json
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from waypost.trajectory import Action
+from waypost_learner.rollout.lead import NO_LEAD, Lead
+
+Way = tuple[Action, ...]
+"""Actions that led from the place where a subgoal was chosen to another place."""
+
+
+@dataclass(frozen=True)
+class ExplorationSpec:
+    """How attempts at a subgoal explore."""
+
+    wander: int = 0  # random actions after the way to a place; no exploration if 0
+    repeat: float = 0.75  # the probability that a random action repeats the one before
+    focus: float = 3.0  # a place that was chosen n times is chosen in proportion to (1 + n) ** -focus
+    guided: float = 0.5  # the share of attempts that begin with a part of a success ...
+    until: float = 0.5  # ... while less than this share of the policy's own last attempts succeed
+    kept: int = 10  # successes, the shortest ones
+
+
+@dataclass
+class Known:
+    """What is known of the subgoal where it is chosen in one place."""
+
+    ways: dict[str, Way] = field(default_factory=dict)  # the shortest way to each place
+    chosen: dict[str, int] = field(default_factory=dict)  # how often the place was chosen since it was found
+    successes: list[Way] = field(default_factory=list)  # the shortest first
+
+
+class Exploration:
+    """Explores one subgoal.
+
+    Ways begin where the subgoal was chosen, so what is known is kept by that place.
+
+    Args:
+        spec: how attempts explore.
+        n_actions: the number of actions.
+    """
+
+    def __init__(self, spec: ExplorationSpec, n_actions: int) -> None:
+        self.spec, self._n_actions = spec, n_actions
+        self.known: dict[str, Known] = {}  # by the place where the subgoal was chosen
+
+    def lead(self, origin: Hashable, success: float, rng: np.random.Generator) -> Lead:
+        """Return how an attempt begins.
+
+        Args:
+            origin: the place where the subgoal was chosen.
+            success: the share of the policy's own last attempts that succeeded.
+            rng: draws the place and the random actions.
+        """
+        known = self._at(origin)
+        if success >= self.spec.until:
+            return NO_LEAD
+        if not known.successes:
+            return Lead(self._way_to_explore(known, rng) + self._random_actions(rng), alone=True)
+        if rng.random() >= self.spec.guided:
+            return NO_LEAD
+        way = known.successes[rng.integers(len(known.successes))]
+        return Lead(way[: rng.integers(len(way))])
+
+    def learn(self, actions: Sequence[Action], places: Sequence[Hashable], reached: bool) -> bool:
+        """Learn from an attempt, and return whether it is one of the shortest successes.
+
+        Args:
+            actions: the H actions of the attempt.
+            places: the H + 1 places before, between and after them.
+            reached: whether the attempt reached the subgoal.
+        """
+        known = self._at(places[0])
+        for step, place in enumerate(map(str, places[:-1])):
+            if place not in known.ways or step < len(known.ways[place]):
+                known.ways[place] = tuple(actions[:step])
+                known.chosen.setdefault(place, 0)
+        if not reached:
+            return False
+        known.successes.append(tuple(actions))
+        known.successes.sort(key=len)
+        del known.successes[self.spec.kept :]
+        return len(actions) <= len(known.successes[-1])
+
+    def to_json(self) -> str:
+        """Return what is known as JSON, for a checkpoint."""
+        return json.dumps({origin: vars(known) for origin, known in self.known.items()})
+
+    def load(self, text: str) -> None:
+        """Replace what is known by what `to_json` returned."""
+        self.known = {
+            origin: Known(
+                {place: tuple(way) for place, way in known["ways"].items()},
+                known["chosen"],
+                [tuple(way) for way in known["successes"]],
+            )
+            for origin, known in json.loads(text).items()
+        }
+
+    def _at(self, origin: Hashable) -> Known:
+        return self.known.setdefault(str(origin), Known())
+
+    def _way_to_explore(self, known: Known, rng: np.random.Generator) -> Way:
+        if not known.ways:
+            return ()
+        places = list(known.ways)
+        weights = (1.0 + np.array([known.chosen[place] for place in places])) ** -self.spec.focus
+        place = places[rng.choice(len(places), p=weights / weights.sum())]
+        known.chosen[place] += 1
+        return known.ways[place]
+
+    def _random_actions(self, rng: np.random.Generator) -> Way:
+        actions = [int(rng.integers(self._n_actions))]
+        while len(actions) < self.spec.wander:
+            repeats = rng.random() < self.spec.repeat
+            actions.append(actions[-1] if repeats else int(rng.integers(self._n_actions)))
+        return tuple(actions)
