@@ -147,24 +147,24 @@ class QFunction:
             batch[name].to(DEVICE) for name in ("choice", "reward", "discount", "weight")
         )
         before, after = to_device(batch["before"]), to_device(batch["after"])
+        with torch.inference_mode(), mixed_precision(self.uses_bf16):
+            best = self.network(after).argmax(1, keepdim=True)  # double Q-learning
+            next_value = self.target(after).float().gather(1, best).squeeze(1)
         with mixed_precision(self.uses_bf16):
-            with torch.no_grad():
-                best = self.network(after).argmax(1, keepdim=True)  # double Q-learning
-                next_value = self.target(after).float().gather(1, best).squeeze(1)
             all_values = self.network(before).float()
             values = all_values.gather(1, choice.unsqueeze(1)).squeeze(1)
         target = reward + discount * next_value
         beta = self.spec.beta + (1 - self.spec.beta) * min(1.0, self.updates / self.spec.beta_updates)
         losses = functional.huber_loss(values, target, reduction="none")
         if self.spec.margin:
-            others = self.spec.margin * (1 - functional.one_hot(choice, self.n_choices))
+            others = torch.full_like(all_values, self.spec.margin).scatter_(1, choice.unsqueeze(1), 0.0)
             demonstrated = batch["demonstrated"].to(DEVICE)
             losses = losses + demonstrated * ((all_values + others).max(1).values - values)
         loss = (weight**beta * losses).mean()
         self.optimizer.zero_grad()
         torch.autograd.backward(loss)
         self.optimizer.step()
-        self.replay.prioritize(rows, (target - values).detach().cpu())
+        self.replay.prioritize(rows, (target - values.detach()).cpu())
         self.updates += 1
         if self.updates % self.spec.target_every == 0:
             self.target.load_state_dict(self.network.state_dict())

@@ -1,5 +1,6 @@
 """Replay buffers: which transitions they keep, and how they sample them."""
 
+import tracemalloc
 from collections import deque
 from typing import Any
 
@@ -92,3 +93,48 @@ def test_a_new_transition_is_as_important_as_the_most_important_one() -> None:
     replay.prioritize(torch.tensor([0, 1]), torch.tensor([9.0, 0.5]))
     replay.add(experience(2))
     assert replay.tensors()["priority"].tolist() == pytest.approx([9.0, 0.5, 9.0], abs=1e-3)
+
+
+@pytest.mark.parametrize(("capacity", "n"), [(1, 1), (64, 64), (64, 100), (65, 65), (1000, 700), (1000, 1300)])
+def test_each_row_of_a_large_buffer_is_drawn_in_proportion_to_its_priority(capacity: int, n: int) -> None:
+    replay = Replay((5,), DqnSpec(capacity=capacity, alpha=0.6))
+    replay.add(experience(*range(n)))
+    errors = torch.rand(len(replay), generator=torch.Generator().manual_seed(1)) ** 4
+    replay.prioritize(torch.arange(len(replay)), errors)
+    drawn = 400 * len(replay)
+    rows, found = replay.sample(drawn, torch.Generator().manual_seed(0))
+    priorities = (errors.double() + 1e-4) ** 0.6
+    expected = drawn * priorities / priorities.sum()
+    counts = torch.bincount(rows, minlength=len(replay))
+    assert len(counts) == len(replay)  # no row that was never filled
+    assert (counts - expected).abs().div(expected.sqrt()).max() < 5  # standard deviations
+    assert torch.allclose(found["weight"], (priorities.min() / priorities[rows]).float())
+
+
+def test_a_loaded_buffer_draws_the_same_rows_and_only_its_own() -> None:
+    long, short = (Replay((4, 6, 6), DqnSpec(capacity=300)) for _ in range(2))
+    pictures = np.random.default_rng(0).integers(0, 256, (200, 6, 6), np.uint8)
+    long.add(stacked(pictures))
+    short.add(stacked(pictures[:20]))
+    short.prioritize(torch.arange(19), torch.linspace(0.01, 1, 19))
+    long.load(short.tensors())  # over a fuller one
+    for buffer in (long, short):
+        buffer.add(stacked(pictures[50:60]))
+    (rows, found), (same, wanted) = (one.sample(2_000, torch.Generator().manual_seed(0)) for one in (long, short))
+    assert torch.equal(rows, same)
+    assert int(rows.max()) == 19 + 9 - 1
+    assert all(torch.equal(found[name], wanted[name]) for name in wanted)
+    assert all(torch.equal(value, long.tensors()[name]) for name, value in short.tensors().items())
+
+
+def test_atari_transitions_take_little_more_memory_than_one_picture_each() -> None:
+    """So that 500,000 of them take less than 4 GiB. Full buffers free the memory of the oldest."""
+    replay = Replay((4, 84, 84), DqnSpec(capacity=300))
+    pictures = np.random.default_rng(0).integers(0, 256, (901, 84, 84), np.uint8)
+    walks = [stacked(pictures[first : first + 101]) for first in range(0, 900, 100)]
+    tracemalloc.start()
+    for walk in walks:
+        replay.add(walk)
+    memory, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert 300 * 84 * 84 < memory < 300 * 4 * 2**30 / 500_000
