@@ -157,7 +157,6 @@ class Replay:
         return {
             **columns,
             "next": torch.tensor([self._next]),
-            "numbers": torch.arange(len(planes)),
             "sizes": torch.tensor([len(one) for one in packed], dtype=torch.int64),
             "planes": torch.frombuffer(bytearray(b"".join(packed)) or bytearray(1), dtype=torch.uint8),
         }
@@ -168,15 +167,15 @@ class Replay:
         for name, column in self._columns.items():
             column[: self._size], column[self._size :] = tensors[name].numpy(), 0
         packed, end = tensors["planes"].numpy().tobytes(), 0
-        planes: dict[int, Plane] = {}
-        for number, size in zip(tensors["numbers"].tolist(), tensors["sizes"].tolist(), strict=True):
-            planes[number] = lz4.block.decompress(packed[end : end + size])
+        planes = list[Plane]()
+        for size in tensors["sizes"].tolist():
+            planes.append(lz4.block.decompress(packed[end : end + size]))
             end += size
         for name, column in self._planes.items():
             column[: self._size] = [[planes[number] for number in numbers] for numbers in tensors[name].tolist()]
             column[self._size :] = None
         if planes:
-            is_byte = len(next(iter(planes.values()))) == np.prod(self._plane_shape)
+            is_byte = len(planes[0]) == np.prod(self._plane_shape)
             self._dtype = np.dtype(np.uint8 if is_byte else np.float32)
 
 
