@@ -96,11 +96,15 @@ Rollout = Generator[Consult, tuple[NDArray[np.float32], float], Trajectory]
 
 
 def hierarchical_rollout(simulator: Simulator, instance: Any, behavior: Behavior) -> Rollout:
-    """Roll out mu and pi_g from the start of an instance, until the episode or H_HI ends; return sigma."""
+    """Roll out mu and pi_g from the start of an instance, until the episode or H_HI ends; return sigma.
+
+    It also ends when an attempt that began with given actions fails: mu would not come there by itself, so the expert
+    should not be asked what to do there.
+    """
     sigma: list[Segment] = []
     state = simulator.reset(instance)
     chosen: Counter[tuple[Hashable, Subgoal]] = Counter()
-    while not simulator.ended and len(sigma) < behavior.h_hi:
+    while not simulator.ended and len(sigma) < behavior.h_hi and not (sigma and _misled(sigma[-1])):
         logits, _ = yield Consult(META, state)
         place = behavior.place(state.view)
         repeats = np.array([chosen[place, subgoal] for subgoal in range(len(logits))], np.float32)
@@ -110,6 +114,10 @@ def hierarchical_rollout(simulator: Simulator, instance: Any, behavior: Behavior
         sigma.append(segment)
         state = segment.states[-1]
     return tuple(sigma)
+
+
+def _misled(segment: Segment) -> bool:
+    return segment.led and segment.outcome == "failed"
 
 
 def execute_subgoal(
