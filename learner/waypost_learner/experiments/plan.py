@@ -254,6 +254,9 @@ def _room_imitation(
 _BYTES = "network.scale=255"
 _PAPER_ROOM = replace(_ROOM, preset="paper", episodes=3_000, values=_BYTES)
 
+# Without demonstrations, attempts at a subgoal explore places until it was reached.
+_EXPLORING = replace(_ROOM, episodes=1_500, values="dqn.exploration.wander=40")
+
 _MONTEZUMA = (
     Group(
         "montezuma-hybrid",
@@ -261,6 +264,18 @@ _MONTEZUMA = (
         "Tests: the 20 starts, on which the learner also trained. LO samples: the learner's steps in training.",
         ("progress-by-subgoal", "reward-by-sample", "success-by-sample", "hi-labels"),
         (_room("hg-DAgger/Q", "hg-dagger-q"), _room("h-DQN", "h-dqn")),
+        hybrid=True,
+        tests="the 20 starts",
+    ),
+    Group(
+        "montezuma-alone",
+        "Montezuma's Revenge, actions learned by reinforcement without demonstrations",
+        "Tests: the 20 starts, on which the learner also trained. LO samples: the learner's steps in training.",
+        ("progress-by-subgoal", "reward-by-sample", "success-by-sample", "hi-labels"),
+        (
+            Series(replace(_EXPLORING, warm_start=0), "hg-DAgger/Q"),
+            Series(replace(_EXPLORING, algorithm="h-dqn"), "h-DQN", most=1),
+        ),
         hybrid=True,
         tests="the 20 starts",
     ),

@@ -216,7 +216,8 @@ class Placed(Protocol):
     def place(self, state: Any) -> Hashable:
         """Return the place of a state, such as its room; `state` is a JSON view.
 
-        The repeat penalty discourages the learner from choosing the same subgoal in the same place again.
+        The repeat penalty discourages the learner from choosing the same subgoal in the same place again. Q-functions
+        that explore go back to places where they seldom were.
         """
 
 
