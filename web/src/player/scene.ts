@@ -14,7 +14,24 @@ export interface Scene {
 /** The annotator's label of a frame. */
 export interface Label {
   readonly frame: number;
-  readonly action: string | null; // null: the segment should have ended here
+  readonly name: string | null; // of the action, or of the subgoal chosen here; null: the segment should have ended here
+}
+
+/** What pointing at the picture does. Every act has a key, too: this is the same with a mouse, a pen or a finger. */
+export interface Pointing {
+  /** What the query asks for, which decides what drawing means; null: nothing can be drawn. */
+  readonly asks: 'subgoals' | 'actions' | null;
+  /** Show a frame. In Label_HI, this selects its segment. */
+  goTo(frame: number): void;
+  /** Choose the subgoal of the current segment. */
+  choose(subgoal: string): void;
+  /** Label the states along a drawn way. `end` is the frame of the state where the way ends; null if there is none. */
+  draw(choices: readonly Choice[], end: number | null): void;
+}
+
+/** A label that names something: every label but the end of a segment. */
+export interface Choice extends Label {
+  readonly name: string;
 }
 
 /** Returns the state that an action leads to. */

@@ -3,9 +3,10 @@ import type { Component } from 'svelte';
 import MazeView from './maze/MazeView.svelte';
 import { stepMaze } from './maze/steps';
 import PictureView from './PictureView.svelte';
-import type { Scene, Step } from '../player/scene';
+import type { Pointing, Scene, Step } from '../player/scene';
 
-type Renderer = Component<{ scene: Scene }>;
+/** Draws a scene. Without `pointing`, the picture is only looked at. */
+type Renderer = Component<{ scene: Scene; pointing?: Pointing }>;
 
 /** The renderers. Other domains are shown with the pictures that the learner sent, or as text. */
 const RENDERERS: Readonly<Record<string, Renderer>> = { maze: MazeView };
