@@ -19,13 +19,18 @@ export interface Label {
 
 /** What pointing at the picture does. Every act has a key, too: this is the same with a mouse, a pen or a finger. */
 export interface Pointing {
-  /** What the query asks for, which decides what drawing means; null: nothing can be drawn. */
-  readonly asks: 'subgoals' | 'actions' | null;
   /** Show a frame. In Label_HI, this selects its segment. */
   goTo(frame: number): void;
-  /** Choose the subgoal of the current segment. */
-  choose(subgoal: string): void;
-  /** Label the states along a drawn way. `end` is the frame of the state where the way ends; null if there is none. */
+  /** Null if the query asks for no labels. */
+  readonly labeling: Labeling | null;
+}
+
+/** What labels the picture. */
+export interface Labeling {
+  readonly of: 'subgoals' | 'actions';
+  /** Label the current segment or state. */
+  choose(name: string): void;
+  /** Label the segments or states along a way. `end` is the frame of the state where the way ends, if there is one. */
   draw(choices: readonly Choice[], end: number | null): void;
 }
 

@@ -7,7 +7,7 @@ import { markFirstWrong, type LoLabels } from './labels/lo';
 import { MOVES } from '../player/commands';
 import * as players from '../player/player';
 import { askedFrames, buildTape, lastFrame, stops, stretchAt } from '../player/tape';
-import type { Choice, Label, Pointing, Scene } from '../player/scene';
+import type { Choice, Label, Labeling, Pointing, Scene } from '../player/scene';
 import { draftOf, keepDraft } from './labels/drafts';
 
 export interface TaskOptions {
@@ -51,8 +51,8 @@ export class Task {
     this.stops = stops(this.tape);
     this.bindings = bindingsFor(ask.kind, vocabulary);
     this.#frames = askedFrames(this.tape);
-    this.pointing = this.#pointing();
     this.labels = (draft === null ? undefined : draftOf(draft)) ?? newLabels(ask);
+    this.pointing = { goTo: (frame) => this.goTo(frame), labeling: this.#labeling() };
     this.player = this.#firstLook();
     this.#showCursor();
   }
@@ -111,13 +111,13 @@ export class Task {
     this.#edit((labels) => choose(labels, index, this.#options.vocabulary), HINTS.choose);
   }
 
-  #pointing(): Pointing {
-    const { kind } = this.ask;
-    const asks = kind === 'label_hi' ? 'subgoals' : kind.startsWith('label') ? 'actions' : null;
+  #labeling(): Labeling | null {
+    if (this.labels === null) return null;
+    const { subgoals, actions } = this.#options.vocabulary;
+    const isHi = this.labels.kind === 'label_hi';
     return {
-      asks,
-      goTo: (frame) => this.goTo(frame),
-      choose: (subgoal) => this.run(`choose:${this.#options.vocabulary.subgoals.indexOf(subgoal)}`),
+      of: isHi ? 'subgoals' : 'actions',
+      choose: (name) => this.run(`choose:${(isHi ? subgoals : actions).indexOf(name)}`),
       draw: (choices, end) => this.#draw(choices, end),
     };
   }
