@@ -1,13 +1,13 @@
 """Measures what an expert does to label: actions and seconds by keys, mouse and touch. Run `python -m bench.expert`.
 
 A script answers Label_LO of a segment of 9 steps and Label_HI of 10 segments in a real Chromium. It knows the right
-answer, and the learner chose each label wrongly, so that every label has to be given. It answers with the buttons of the
-panel, and by drawing on the picture. Two times are printed:
+answer, and every suggestion of the learner is wrong, so that it has to give every label. It answers with the buttons of
+the panel, and by drawing on the picture. Two times are printed:
 
 - machine: from the first action to the next query, in the browser. The script does not think and does not move a hand.
-- hand: an estimate for a person, by the keystroke-level model (Card, Moran and Newell 1980): 0.28 s for a key, 1.1 s to
-  point, 0.2 s to click or tap. A stroke is pointed at once, pressed and released (0.2 s), and takes 1.1 s for each of its
-  straight lines. The time to think is left out: it is the same in every row.
+- hand: an estimate for a person, by the keystroke-level model (Card, Moran and Newell 1980): 0.28 s for a key, 1.1 s
+  to point, 0.2 s to click or tap. For a stroke, the hand points at its beginning (1.1 s), presses and releases (0.2 s),
+  and points at the end of each straight line (1.1 s). The time to think is left out.
 """
 
 import os
