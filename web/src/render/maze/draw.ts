@@ -104,10 +104,10 @@ function drawTrail(brush: Brush, picture: Picture, stretch: Stretch, lanes: read
   brush.globalAlpha = 1;
 }
 
-/** Return how strongly a segment is drawn up to the current frame, and after it. */
+/** Return how strongly a segment is drawn up to the current frame, and after it. The current one stands out, if any. */
 function strengthOf(scene: Scene, stretch: Stretch): readonly [past: number, ahead: number] {
-  if (stretch.index === scene.current) return [1, 0.85];
-  return stretch.asked ? [0.5, 0.6] : [0.35, 0.3];
+  if (!stretch.asked) return [0.35, 0.3];
+  return stretch.index === scene.current || scene.current === null ? [1, 0.85] : [0.5, 0.6];
 }
 
 /** Stroke a part of the way. If `joined`, the first lane was drawn before, and the part begins where it ends. */
