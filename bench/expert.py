@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 
 from playwright.sync_api import Browser, Page, sync_playwright
 from tests.browser.conftest import FLAGS, WEB, WIDE
-from tests.browser.hand import Finger, Mouse
+from tests.browser.hands.pointer import Finger, Mouse
 from tests.browser.kit import Cell, Json, Learner, ask, find_chromium, log_in, wait_for_heading, way
 from tests.browser.test_narrow import PHONE
 

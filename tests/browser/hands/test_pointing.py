@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import Open
-from tests.browser.hand import Finger, Mouse
+from tests.browser.hands.pointer import Finger, Mouse
 from tests.browser.kit import Json, Learner, ask, maze, wait_for_heading, way
 from tests.browser.test_access import violations
 from tests.browser.test_narrow import PHONE, too_wide
