@@ -20,7 +20,7 @@ const maze: Maze = {
   goal: [1, 7],
 };
 const drawn = (...cells: Cell[]): Stroke =>
-  cells.reduce((stroke, cell) => extended(maze, stroke, cell), [] as Stroke);
+  cells.reduce<Stroke>((stroke, cell) => extended(maze, stroke, cell), []);
 
 const MOVES: Readonly<Record<string, Cell>> = { u: [-1, 0], d: [1, 0], l: [0, -1], r: [0, 1] };
 const NAMES: Readonly<Record<string, string>> = { u: 'up', d: 'down', l: 'left', r: 'right' };
