@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from playwright.sync_api import Page
-from tests.browser.keyboard import give
+from tests.browser.hands.keyboard import give
 
 from waypost import wire
 from waypost.client import Client

@@ -93,9 +93,17 @@ def open_page(browser: Browser, served: Served, complaints: Complaints) -> Itera
         size: dict[str, int] = WIDE,
         motion: str = "no-preference",
         intercepted: bool = False,
+        touch: bool = False,
     ) -> Page:
         server = at or served
-        context = browser.new_context(base_url=server.url, viewport=size, color_scheme=scheme, reduced_motion=motion)
+        context = browser.new_context(
+            base_url=server.url,
+            viewport=size,
+            color_scheme=scheme,
+            reduced_motion=motion,
+            has_touch=touch,
+            is_mobile=touch,
+        )
         context.set_default_timeout(15_000)
         contexts.append(context)
         if intercepted:  # from the start: a route added later may miss the very next request

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import WIDE, Open
-from tests.browser.keyboard import give
+from tests.browser.hands.keyboard import give
 from tests.browser.kit import Learner
 from tests.browser.test_access import violations
 from tests.examples.kit import DOMAINS

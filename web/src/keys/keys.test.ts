@@ -219,6 +219,25 @@ describe('a key press', () => {
     }
   });
 
+  it('undoes a label with Ctrl or the command key and Z, also on a Russian keyboard, but not in a field', () => {
+    const label = bindingsFor('label_lo', maze);
+    const z = (more: Partial<KeyPress>, target: Element | null = null, key = 'z') =>
+      match(press(key, { code: 'KeyZ', ...more }), target, label)?.command ?? null;
+    expect([z({ ctrlKey: true }), z({ metaKey: true }), z({ ctrlKey: true }, null, 'я')]).toEqual([
+      'clear',
+      'clear',
+      'clear',
+    ]);
+    expect([z({}), z({ ctrlKey: true, shiftKey: true }), z({ ctrlKey: true, altKey: true })]).toEqual([
+      null,
+      null,
+      null,
+    ]);
+    document.body.innerHTML = '<input type="text">';
+    expect(z({ ctrlKey: true }, document.body.querySelector('input'))).toBeNull();
+    expect(printed('Ctrl+z')).toBe('Ctrl Z');
+  });
+
   it('answers on a Russian keyboard, with default keys and with keys of one’s own', () => {
     expect(meaning('з', null, { code: 'KeyP' })).toBe('pass');
     const changed = remapped(inspect, { pass: keyOf(press('о', { code: 'KeyJ' })) });

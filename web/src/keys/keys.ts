@@ -7,12 +7,13 @@ export type KeyPress = Pick<
   'key' | 'code' | 'shiftKey' | 'ctrlKey' | 'altKey' | 'metaKey' | 'repeat' | 'isComposing'
 >;
 
-/** Return the name of a key: `p`, `?`, `Enter`, `Shift+Enter`, `Shift+s`. */
+/** Return the name of a key: `p`, `?`, `Enter`, `Shift+Enter`, `Shift+s`, `Ctrl+z` (on a Mac, with the command key). */
 export function keyOf(press: KeyPress): string {
   const typed = isForeign(press.key) ? placeOf(press.code) : undefined;
   const key = typed ?? (press.key.length === 1 ? press.key.toLowerCase() : press.key);
   const shifts = press.shiftKey && (key.length > 1 || /[a-z ]/.test(key));
-  return shifts ? `Shift+${key}` : key;
+  const name = shifts ? `Shift+${key}` : key;
+  return press.ctrlKey || press.metaKey ? `Ctrl+${name}` : name;
 }
 
 /**
@@ -50,9 +51,9 @@ const PRINTED: Readonly<Record<string, string>> = {
 
 /** Return how a key is printed on a button. */
 export function printed(key: string): string {
-  const [name = key, shift] = key.startsWith('Shift+') ? [key.slice(6), true] : [key];
-  const face = PRINTED[name] ?? (name.length === 1 ? name.toUpperCase() : name);
-  return shift ? `⇧ ${face}` : face;
+  if (key.startsWith('Ctrl+')) return `Ctrl ${printed(key.slice(5))}`;
+  if (key.startsWith('Shift+')) return `⇧ ${printed(key.slice(6))}`;
+  return PRINTED[key] ?? (key.length === 1 ? key.toUpperCase() : key);
 }
 
 export function bindingOf(bindings: readonly Binding[], command: Command): Binding | undefined {
@@ -84,7 +85,7 @@ const SLIDER_KEYS = new Set([
 
 /** Return the binding of a key press, or null if it has none here. */
 export function match(press: KeyPress, target: Element | null, bindings: readonly Binding[]): Binding | null {
-  if (press.ctrlKey || press.altKey || press.metaKey || press.isComposing) return null;
+  if (press.altKey || press.isComposing) return null;
   const key = keyOf(press);
   if (belongsToElement(target, key)) return null;
   return bindings.find((binding) => binding.keys.includes(key)) ?? null;

@@ -120,12 +120,12 @@ const ACCEPT: readonly Binding[] = [
     group: 'Answer',
     once: true,
   },
-  { command: 'clear', keys: ['Backspace'], label: 'Undo the last label', group: 'Answer' },
+  { command: 'clear', keys: ['Backspace', 'Ctrl+z'], label: 'Undo the last label', group: 'Answer' },
 ];
 
 const DEMO: readonly Binding[] = [
   { command: 'send', keys: ['Shift+Enter'], label: 'Send the demonstration', group: 'Answer', once: true },
-  { command: 'clear', keys: ['Backspace'], label: 'Undo the last move', group: 'Answer' },
+  { command: 'clear', keys: ['Backspace', 'Ctrl+z'], label: 'Undo the last move', group: 'Answer' },
   {
     command: 'start-over',
     keys: ['Shift+Backspace'],

@@ -14,7 +14,29 @@ export interface Scene {
 /** The annotator's label of a frame. */
 export interface Label {
   readonly frame: number;
-  readonly action: string | null; // null: the segment should have ended here
+  readonly name: string | null; // of the action, or of the subgoal chosen here; null: the segment should have ended here
+}
+
+/** What pointing at the picture does. Every act has a key, too: this is the same with a mouse, a pen or a finger. */
+export interface Pointing {
+  /** Show a frame. In Label_HI, this selects its segment. */
+  goTo(frame: number): void;
+  /** Null if the query asks for no labels. */
+  readonly labeling: Labeling | null;
+}
+
+/** What labels the picture. */
+export interface Labeling {
+  readonly of: 'subgoals' | 'actions';
+  /** Label the current segment or state. */
+  choose(name: string): void;
+  /** Label the segments or states along a way. `end` is the frame of the state where the way ends, if there is one. */
+  draw(choices: readonly Choice[], end: number | null): void;
+}
+
+/** A label that names something: every label but the end of a segment. */
+export interface Choice extends Label {
+  readonly name: string;
 }
 
 /** Returns the state that an action leads to. */

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Json } from '../api/types';
-import { conversationOf, newTurns, type Conversation } from './conversation';
+import { conversationOf, frameOfTurn, newTurns, type Conversation } from './conversation';
 
 const asked = {
   turns: [
@@ -41,6 +41,10 @@ describe('a state with a list of turns', () => {
       { speaker: null, text: 'Hello.' },
       { speaker: null, text: 'Goodbye.' },
     ]);
+  });
+
+  it('shows which state a turn was new in', () => {
+    expect([0, 1, 2].map((turn) => frameOfTurn([asked, asked, told], turn))).toEqual([0, 0, 2]);
   });
 
   it('says which turns are new since the state before', () => {

@@ -41,6 +41,11 @@ export function newTurns(now: Conversation, before: Conversation | null): number
   return now.turns.length - (old === -1 ? before.turns.length : old);
 }
 
+/** Return the first frame whose state has a turn; `turn` is its place in the conversation. */
+export function frameOfTurn(frames: readonly Json[], turn: number): number {
+  return frames.findIndex((view) => (conversationOf(view)?.turns.length ?? 0) > turn);
+}
+
 function turnsOf(value: Json): Turn[] | null {
   if (!Array.isArray(value)) return null;
   const turns = value.map(turnOf);

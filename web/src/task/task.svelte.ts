@@ -1,12 +1,13 @@
 // The state of one query on the screen, and what every key does.
 import type { Answer, Answerable, Vocabulary } from '../api/types';
 import { bindingsFor, type Command } from '../keys/registry';
-import { answerOf, choose, EDITS, HINTS, moveTo, newLabels, type Labels } from './labels/labels';
+import { answerOf, choose, chooseAll, EDITS, HINTS, moveTo, newLabels, type Labels } from './labels/labels';
+import type { HiLabels } from './labels/hi';
 import { markFirstWrong, type LoLabels } from './labels/lo';
 import { MOVES } from '../player/commands';
 import * as players from '../player/player';
 import { askedFrames, buildTape, lastFrame, stops, stretchAt } from '../player/tape';
-import type { Label, Scene } from '../player/scene';
+import type { Choice, Label, Labeling, Pointing, Scene } from '../player/scene';
 import { draftOf, keepDraft } from './labels/drafts';
 
 export interface TaskOptions {
@@ -29,6 +30,7 @@ export class Task {
   readonly tape;
   readonly stops;
   readonly bindings;
+  readonly pointing: Pointing;
   player = $state.raw(players.player(0, 0));
   labels: Labels | null = $state.raw(null);
   hint = $state(''); // why a key did nothing
@@ -50,6 +52,7 @@ export class Task {
     this.bindings = bindingsFor(ask.kind, vocabulary);
     this.#frames = askedFrames(this.tape);
     this.labels = (draft === null ? undefined : draftOf(draft)) ?? newLabels(ask);
+    this.pointing = { goTo: (frame) => this.goTo(frame), labeling: this.#labeling() };
     this.player = this.#firstLook();
     this.#showCursor();
   }
@@ -69,6 +72,13 @@ export class Task {
   /** Show a frame. With action labels, its state is then the next one to label. */
   seek(frame: number): void {
     this.#move(players.seek(this.player, frame));
+  }
+
+  /** Show a frame that was pointed at. In Label_HI, its segment is then the next one to label. */
+  goTo(frame: number): void {
+    const stretch = stretchAt(this.tape, frame);
+    if (this.ask.kind === 'label_hi' && stretch?.asked) this.moveTo(stretch.index - this.ask.context.length);
+    this.seek(frame);
   }
 
   moveTo(index: number): void {
@@ -99,6 +109,27 @@ export class Task {
 
   #choose(index: number): void {
     this.#edit((labels) => choose(labels, index, this.#options.vocabulary), HINTS.choose);
+  }
+
+  #labeling(): Labeling | null {
+    if (this.labels === null) return null;
+    const { subgoals, actions } = this.#options.vocabulary;
+    const isHi = this.labels.kind === 'label_hi';
+    return {
+      of: isHi ? 'subgoals' : 'actions',
+      choose: (name) => this.run(`choose:${(isHi ? subgoals : actions).indexOf(name)}`),
+      draw: (choices, end) => this.#draw(choices, end),
+    };
+  }
+
+  /** Label the states or segments of a drawn way in one edit, which can be undone at once. */
+  #draw(choices: readonly Choice[], end: number | null): void {
+    this.hint = '';
+    const asked = this.tape.stretches.filter((stretch) => stretch.asked).map((stretch) => stretch.first);
+    const places = this.ask.kind === 'label_hi' ? asked : this.#frames;
+    const named = choices.map(({ frame, name }) => [places.indexOf(frame), name] as const);
+    const next = end === null ? null : places.indexOf(end);
+    this.#edit((labels) => chooseAll(labels, named, next), HINTS.draw);
   }
 
   #submitAll(): void {
@@ -152,21 +183,26 @@ export class Task {
     const { at } = this.player;
     const isHi = labels?.kind === 'label_hi';
     const current = isHi ? ask.context.length + labels.cursor : (stretchAt(tape, at)?.index ?? null);
-    const marks = labels === null || isHi ? [] : this.#marks(labels);
     return {
       instance: ask.instance,
       tape,
       vocabulary: this.#options.vocabulary,
       at,
       current,
-      labels: marks,
+      labels: labels === null ? [] : isHi ? this.#subgoalMarks(labels) : this.#actionMarks(labels),
     };
   }
 
-  #marks(labels: LoLabels): Label[] {
-    const marks = labels.actions.map((action, state) => ({ frame: this.#frames[state] ?? 0, action }));
-    const said = marks.filter((mark) => mark.action !== null);
+  #subgoalMarks(labels: HiLabels): Label[] {
+    const asked = this.tape.stretches.filter((stretch) => stretch.asked);
+    const marks = labels.subgoals.map((name, index) => ({ frame: asked[index]?.first ?? 0, name }));
+    return marks.filter((mark) => mark.name !== null);
+  }
+
+  #actionMarks(labels: LoLabels): Label[] {
+    const marks = labels.actions.map((name, state) => ({ frame: this.#frames[state] ?? 0, name }));
+    const said = marks.filter((mark) => mark.name !== null);
     const end = typeof labels.end === 'number' ? this.#frames[labels.end] : undefined;
-    return end === undefined ? said : [...said, { frame: end, action: null }];
+    return end === undefined ? said : [...said, { frame: end, name: null }];
   }
 }

@@ -2,8 +2,10 @@
 import { initial } from '../../api/names';
 import type { Label, Scene } from '../../player/scene';
 import type { Stretch } from '../../player/tape';
-import { isDoor, isLava, MOVES, parseCell, type Cell, type Maze } from './geometry';
+import { isDoor, isLava, MOVES, parseCell, SIDES, type Cell, type Maze } from './geometry';
+import type { Place } from './hit';
 import type { Palette } from './palette';
+import type { Stroke } from './stroke';
 import { lanesOf, type Lane, type Point } from './trails';
 
 export interface Picture {
@@ -11,8 +13,11 @@ export interface Picture {
   readonly maze: Maze;
   readonly palette: Palette;
   readonly size: number; // CSS pixels
+  readonly places: readonly Place[]; // where a subgoal of the current segment can be chosen
+  readonly stroke: Stroke; // what the annotator is drawing
 }
 
+const LEAST_PLACE = 11; // CSS pixels: with its edge, the disc is a target of 24
 const LEAST_TEXT = 10; // CSS pixels: smaller letters cannot be read, so on a phone the markers are larger than a third
 
 type Brush = CanvasRenderingContext2D;
@@ -27,10 +32,13 @@ export function drawMaze(brush: Brush, picture: Picture): void {
   drawAgent(brush, picture);
   for (const label of picture.scene.labels) drawLabel(brush, picture, label);
   drawEnd(brush, picture);
+  for (const place of picture.places) drawPlace(brush, picture, place);
   for (const stretch of inFront(picture.scene)) drawMarker(brush, picture, stretch);
+  drawStroke(brush, picture);
 }
 
-function drawCells(brush: Brush, { maze, palette, size }: Picture): void {
+function drawCells(brush: Brush, picture: Picture): void {
+  const { maze, palette, size } = picture;
   const unit = size / maze.rows.length;
   maze.rows.forEach((cells, row) => {
     for (let column = 0; column < cells.length; column++) {
@@ -41,11 +49,26 @@ function drawCells(brush: Brush, { maze, palette, size }: Picture): void {
       brush.fillStyle = lava ? palette.map.lava : isDoor(maze, cell) ? palette.map.door : palette.map.floor;
       brush.fillRect(left, top, right - left, bottom - top);
       if (lava) continue;
+      if (isDoor(maze, cell)) drawFrame(brush, picture, cell);
       brush.strokeStyle = palette.map.grid;
       brush.lineWidth = 1;
       brush.strokeRect(left + 0.5, top + 0.5, right - left - 1, bottom - top - 1);
     }
   });
+}
+
+/** Draw the two posts of a door, on the sides where the wall goes on. */
+function drawFrame(brush: Brush, picture: Picture, [row, column]: Cell): void {
+  const { maze, palette } = picture;
+  const unit = unitOf(picture);
+  const post = unit * 0.14;
+  const [x, y] = [column * unit, row * unit];
+  brush.fillStyle = palette.map['door-frame'];
+  if (isLava(maze, [row, column - 1]) && isLava(maze, [row, column + 1])) {
+    for (const left of [x, x + unit - post]) brush.fillRect(left, y, post, unit);
+  } else {
+    for (const top of [y, y + unit - post]) brush.fillRect(x, top, unit, post);
+  }
 }
 
 function drawTarget(brush: Brush, picture: Picture): void {
@@ -61,16 +84,17 @@ function drawTarget(brush: Brush, picture: Picture): void {
   }
 }
 
-/** Draw the path of a segment: thick up to the current frame, thin after it, faint if the query does not ask about it. */
+/** Draw the path of a segment: thick up to the current frame, thin after it. Segments other than the current one fade. */
 function drawTrail(brush: Brush, picture: Picture, stretch: Stretch, lanes: readonly (Lane | null)[]): void {
   const { scene } = picture;
   const unit = unitOf(picture);
   brush.strokeStyle = brush.fillStyle = colorOf(picture, stretch);
   brush.lineCap = brush.lineJoin = 'round';
   const seen = Math.min(stretch.last, Math.max(stretch.first, scene.at));
-  brush.globalAlpha = stretch.asked ? 1 : 0.4;
+  const [past, ahead] = strengthOf(scene, stretch);
+  brush.globalAlpha = past;
   strokeLanes(brush, unit, lanes.slice(Math.max(0, stretch.first - 1), seen), stretch.first > 0, unit * 0.13);
-  brush.globalAlpha = stretch.asked ? 0.75 : 0.3;
+  brush.globalAlpha = ahead;
   strokeLanes(brush, unit, lanes.slice(Math.max(0, seen - 1), stretch.last), seen > 0, unit * 0.06);
   for (const lane of lanes.slice(stretch.first, stretch.last)) {
     if (lane === null) continue;
@@ -78,6 +102,12 @@ function drawTrail(brush: Brush, picture: Picture, stretch: Stretch, lanes: read
     fillTriangle(brush, [column * unit, row * unit], lane.way, unit * 0.17);
   }
   brush.globalAlpha = 1;
+}
+
+/** Return how strongly a segment is drawn up to the current frame, and after it. The current one stands out, if any. */
+function strengthOf(scene: Scene, stretch: Stretch): readonly [past: number, ahead: number] {
+  if (!stretch.asked) return [0.35, 0.3];
+  return stretch.index === scene.current || scene.current === null ? [1, 0.85] : [0.5, 0.6];
 }
 
 /** Stroke a part of the way. If `joined`, the first lane was drawn before, and the part begins where it ends. */
@@ -168,23 +198,74 @@ function drawMarker(brush: Brush, picture: Picture, stretch: Stretch): void {
   brush.globalAlpha = 1;
 }
 
-/** Draw a label over all else: an arrow out of its state, or a square where the segment should have ended. */
+/** Draw a label: an arrow out of its state, a disc for the target, a square where the segment should have ended. */
 function drawLabel(brush: Brush, picture: Picture, label: Label): void {
   const cell = cellAt(picture, label.frame);
   if (cell === null) return;
   const { palette } = picture;
   const unit = unitOf(picture);
   const [x, y] = centre(picture, cell, 0);
-  const way = label.action === null ? null : MOVES[label.action];
+  const way = label.name === null ? null : (MOVES[label.name] ?? SIDES[label.name]);
   brush.fillStyle = palette.map.label;
   brush.strokeStyle = palette.map['label-edge'];
   brush.lineWidth = unit * 0.06;
   if (way) {
     fillTriangle(brush, [x + way[1] * unit * 0.34, y + way[0] * unit * 0.34], way, unit * 0.3);
-  } else if (label.action === null) {
+  } else if (label.name === null) {
     brush.fillRect(x - unit * 0.2, y - unit * 0.2, unit * 0.4, unit * 0.4);
+  } else {
+    brush.beginPath();
+    brush.arc(x, y, unit * 0.22, 0, 2 * Math.PI);
+    brush.fill();
   }
   brush.stroke();
+}
+
+/** Draw where a subgoal can be chosen: its letter in a disc, filled if it is the label of the current segment. */
+function drawPlace(brush: Brush, picture: Picture, { subgoal, cell }: Place): void {
+  const { palette, scene } = picture;
+  const unit = unitOf(picture);
+  const [x, y] = centre(picture, cell, 0);
+  const first = scene.tape.stretches[scene.current ?? -1]?.first;
+  const isChosen = scene.labels.some((label) => label.frame === first && label.name === subgoal);
+  const color = palette.subgoals[scene.vocabulary.subgoals.indexOf(subgoal) % palette.subgoals.length] ?? '';
+  brush.beginPath();
+  brush.arc(x, y, Math.max(unit * 0.42, LEAST_PLACE), 0, 2 * Math.PI);
+  brush.fillStyle = isChosen ? color : palette.map.floor;
+  brush.fill();
+  brush.strokeStyle = color;
+  brush.lineWidth = Math.max(unit * 0.09, 2);
+  brush.stroke();
+  brush.font = `700 ${Math.max(Math.round(unit * 0.45), LEAST_TEXT + 2)}px system-ui, sans-serif`;
+  brush.fillStyle = isChosen ? palette.map['marker-text'] : color;
+  brush.textAlign = 'center';
+  brush.textBaseline = 'middle';
+  brush.fillText(initial(subgoal), x, y + unit * 0.02);
+}
+
+/** Draw the way that the annotator is drawing, with an arrow at its tip. */
+function drawStroke(brush: Brush, picture: Picture): void {
+  const { palette, stroke } = picture;
+  const [before, tip] = stroke.slice(-2);
+  if (before === undefined || tip === undefined) return;
+  const unit = unitOf(picture);
+  brush.lineCap = brush.lineJoin = 'round';
+  for (const [color, width] of [
+    [palette.map['label-edge'], 0.36],
+    [palette.map.label, 0.22],
+  ] as const) {
+    brush.strokeStyle = brush.fillStyle = color;
+    brush.lineWidth = unit * width;
+    brush.beginPath();
+    for (const cell of stroke) brush.lineTo(...centre(picture, cell, 0));
+    brush.stroke();
+    fillTriangle(
+      brush,
+      centre(picture, tip, 0),
+      [tip[0] - before[0], tip[1] - before[1]],
+      unit * (width + 0.1),
+    );
+  }
 }
 
 function drawAgent(brush: Brush, picture: Picture): void {

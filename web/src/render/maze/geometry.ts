@@ -18,6 +18,16 @@ export const MOVES: Readonly<Record<string, Cell>> = {
   right: [0, 1],
 };
 
+/** The subgoals that lead to a neighboring room, as (row, column) of the way there. */
+export const SIDES: Readonly<Record<string, Cell>> = {
+  north: [-1, 0],
+  south: [1, 0],
+  west: [0, -1],
+  east: [0, 1],
+};
+/** The subgoal of the room with the target. */
+export const TARGET = 'go_to_target';
+
 const ROOM_PITCH = 4; // cells: one of wall, three of room
 
 export function parseMaze(json: Json): Maze | null {
@@ -56,6 +66,22 @@ export function describeCell(maze: Maze, cell: Cell): string {
   if (isDoor(maze, cell)) return `in a door at row ${cell[0]}, column ${cell[1]}`;
   const [row, column] = [Math.ceil(cell[0] / ROOM_PITCH), Math.ceil(cell[1] / ROOM_PITCH)];
   return `in room ${row}–${column}`;
+}
+
+/** Return a name of the room of a cell; a cell of a wall line is a place of its own. */
+export function placeName(cell: Cell): string {
+  if (isWallLine(cell)) return cell.join();
+  return `room ${cell.map((one) => Math.ceil(one / ROOM_PITCH)).join()}`;
+}
+
+/** Return the action that makes a step. */
+export function actionOf(way: Cell): string | undefined {
+  return Object.keys(MOVES).find((name) => sameCell(MOVES[name] ?? [0, 0], way));
+}
+
+/** Return the subgoal whose room lies in the direction of a step. */
+export function sideOf(way: Cell): string | undefined {
+  return Object.keys(SIDES).find((name) => sameCell(SIDES[name] ?? [0, 0], way));
 }
 
 export function sameCell(a: Cell, b: Cell): boolean {

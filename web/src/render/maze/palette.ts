@@ -6,6 +6,7 @@ const NAMES = [
   'floor',
   'grid',
   'door',
+  'door-frame',
   'lava',
   'target',
   'agent',

@@ -92,6 +92,6 @@ export function labelsOf(answer: Answer | null, tape: Tape): Label[] {
   const until = end < 0 ? answer.actions.length : end;
   const labels = answer.actions
     .slice(0, until)
-    .flatMap((action, state) => (action === null ? [] : [{ frame: frames[state] ?? 0, action }]));
-  return end < 0 ? labels : [...labels, { frame: frames[end] ?? 0, action: null }];
+    .flatMap((action, state) => (action === null ? [] : [{ frame: frames[state] ?? 0, name: action }]));
+  return end < 0 ? labels : [...labels, { frame: frames[end] ?? 0, name: null }];
 }

@@ -13,9 +13,9 @@ describe('the replay of a query', () => {
       buildTape([], [segment]),
     );
     expect(labels).toEqual([
-      { frame: 0, action: 'up' },
-      { frame: 1, action: 'down' },
-      { frame: 2, action: null },
+      { frame: 0, name: 'up' },
+      { frame: 1, name: 'down' },
+      { frame: 2, name: null },
     ]);
   });
 

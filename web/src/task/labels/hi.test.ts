@@ -1,6 +1,15 @@
 import { describe, expect, it } from 'vitest';
 import type { AskOf } from '../../api/types';
-import { acceptRemaining, acceptSubgoal, clearLast, hiAnswer, hiLabels, moveTo, setSubgoal } from './hi';
+import {
+  acceptRemaining,
+  acceptSubgoal,
+  clearLast,
+  hiAnswer,
+  hiLabels,
+  moveTo,
+  setSubgoal,
+  setSubgoals,
+} from './hi';
 
 function ask(subgoals: (string | null)[], suggestion: string[] | null = null): AskOf<'label_hi'> {
   return {
@@ -20,6 +29,27 @@ describe('Label_HI', () => {
   it("suggests the learner's own subgoals where it sent no suggestion", () => {
     expect(three.suggested).toEqual(['north', 'north', 'east']);
     expect(hiLabels(ask(['north'], ['west'])).suggested).toEqual(['west']);
+  });
+
+  it('labels several segments in one edit, and goes on with the first without a label', () => {
+    const two = setSubgoals(
+      three,
+      new Map([
+        [0, 'west'],
+        [2, 'south'],
+      ]),
+    );
+    expect(two).toMatchObject({ subgoals: ['west', null, 'south'], cursor: 1 });
+    expect(clearLast(two)).toMatchObject({ subgoals: [null, null, null], cursor: 0 });
+    const all = setSubgoals(
+      two,
+      new Map([
+        [0, 'north'],
+        [1, 'east'],
+      ]),
+    );
+    expect(all).toMatchObject({ subgoals: ['north', 'east', 'south'], cursor: 1 });
+    expect(setSubgoals(three, new Map())).toBe(three);
   });
 
   it('has no answer until every segment is labeled', () => {

@@ -22,6 +22,14 @@ export function setSubgoal(labels: HiLabels, subgoal: string): HiLabels {
   return edit(labels, labels.subgoals.with(labels.cursor, subgoal), labels.cursor + 1);
 }
 
+/** Label several segments in one edit, and move to the first segment without a label. */
+export function setSubgoals(labels: HiLabels, chosen: ReadonlyMap<number, string>): HiLabels {
+  if (chosen.size === 0) return labels;
+  const subgoals = labels.subgoals.map((subgoal, index) => chosen.get(index) ?? subgoal);
+  const open = subgoals.indexOf(null);
+  return edit(labels, subgoals, open === -1 ? Math.max(...chosen.keys()) : open);
+}
+
 /** Keep the label of the current segment, else take the learner's choice, and move to the next segment. */
 export function acceptSubgoal(labels: HiLabels): HiLabels {
   const subgoal = labels.subgoals[labels.cursor] ?? labels.suggested[labels.cursor];

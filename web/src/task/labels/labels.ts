@@ -32,6 +32,16 @@ export function choose(labels: Labels, index: number, vocabulary: Vocabulary): L
   return isHi ? hi.setSubgoal(labels, name) : lo.setAction(labels, name);
 }
 
+/** Label segments or states, by their number, in one edit. `next` is the state to go on with; null: an open one. */
+export function chooseAll(
+  labels: Labels,
+  named: readonly (readonly [number, string])[],
+  next: number | null,
+): Labels {
+  const chosen = new Map(named);
+  return labels.kind === 'label_hi' ? hi.setSubgoals(labels, chosen) : lo.setActions(labels, chosen, next);
+}
+
 export function moveTo(labels: Labels, index: number): Labels {
   return labels.kind === 'label_hi' ? hi.moveTo(labels, index) : lo.moveTo(labels, index);
 }
@@ -50,8 +60,9 @@ export const EDITS: Partial<Record<Command, (labels: Labels) => Labels>> = {
 };
 
 /** The hints that say why an edit changed nothing. */
-export const HINTS: Partial<Record<Command | 'choose', string>> = {
+export const HINTS: Partial<Record<Command | 'choose' | 'draw', string>> = {
   accept: 'There is nothing to keep: the learner made no choice here.',
   'not-done': '“Not done” is for the last state only. At other states, choose an action.',
+  draw: 'This way passes nothing that the query asks about. Draw along the learner’s path, and leave it where it is wrong.',
   choose: 'The last state needs no action. Choose “Done here” or “Not done”.',
 };

@@ -97,6 +97,33 @@ describe('Label_LO', () => {
     expect(kept.actions).toEqual(['left', 'right', null]);
   });
 
+  it('labels several states in one edit, and goes on where it is told or with the first without a label', () => {
+    const chosen = new Map([
+      [0, 'left'],
+      [2, 'down'],
+    ]);
+    expect(lo.setActions(three, chosen, null)).toMatchObject({ actions: ['left', null, 'down'], cursor: 1 });
+    const atEnd = lo.setActions(three, chosen, 3);
+    expect(atEnd).toMatchObject({ actions: ['left', null, 'down'], cursor: 3 });
+    expect(lo.clearLast(atEnd)).toMatchObject({ actions: [null, null, null], cursor: 0 });
+    expect(lo.setActions(three, new Map(), 3)).toBe(three);
+  });
+
+  it('forgets the end when one of several actions is put there or later', () => {
+    const done = lo.setDone(press(three, 1));
+    expect(lo.setActions(done, new Map([[0, 'left']]), null).end).toBe(1);
+    expect(
+      lo.setActions(
+        done,
+        new Map([
+          [0, 'left'],
+          [2, 'left'],
+        ]),
+        null,
+      ).end,
+    ).toBeNull();
+  });
+
   it('undoes edits one by one', () => {
     const edited = lo.setAction(lo.markFirstWrong(three, 1), 'down');
     expect(lo.clearLast(edited)).toMatchObject({ actions: ['up', null, null], cursor: 1 });

@@ -64,6 +64,19 @@ export function setAction(labels: LoLabels, action: string): LoLabels {
   return edit(labels, { actions: labels.actions.with(cursor, action), end, cursor: cursor + 1 });
 }
 
+/** Label several states in one edit, and move to the state `next`; if it is null, to the first state without a label. */
+export function setActions(
+  labels: LoLabels,
+  chosen: ReadonlyMap<number, string>,
+  next: number | null,
+): LoLabels {
+  if (chosen.size === 0) return labels;
+  const actions = labels.actions.map((action, state) => chosen.get(state) ?? action);
+  const end = typeof labels.end === 'number' && Math.max(...chosen.keys()) >= labels.end ? null : labels.end;
+  const edited = edit(labels, { actions, end, cursor: labels.cursor });
+  return moveTo(edited, next ?? firstOpen(edited) ?? Math.max(...chosen.keys()));
+}
+
 /** Done here: the segment should have ended at the current state; later states need no label. */
 export function setDone(labels: LoLabels): LoLabels {
   if (labels.kind !== 'label_lo') return labels;
