@@ -172,8 +172,9 @@ class Replay:
             planes.append(lz4.block.decompress(packed[end : end + size]))
             end += size
         for name, column in self._planes.items():
-            column[: self._size] = [[planes[number] for number in numbers] for numbers in tensors[name].tolist()]
-            column[self._size :] = None
+            column[:] = None
+            for row, numbers in enumerate(tensors[name].tolist()):
+                column[row] = [planes[number] for number in numbers]
         if planes:
             is_byte = len(planes[0]) == np.prod(self._plane_shape)
             self._dtype = np.dtype(np.uint8 if is_byte else np.float32)

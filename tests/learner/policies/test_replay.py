@@ -127,6 +127,14 @@ def test_a_loaded_buffer_draws_the_same_rows_and_only_its_own() -> None:
     assert all(torch.equal(value, long.tensors()[name]) for name, value in short.tensors().items())
 
 
+@pytest.mark.parametrize("shape", [(5,), (2, 6, 6)])
+def test_an_empty_buffer_comes_back_from_a_checkpoint(shape: tuple[int, ...]) -> None:
+    """Until a subgoal is first chosen, its buffer is empty."""
+    replay = Replay(shape, DqnSpec(capacity=300))
+    replay.load(Replay(shape, DqnSpec(capacity=300)).tensors())
+    assert len(replay) == 0
+
+
 def test_atari_transitions_take_little_more_memory_than_one_picture_each() -> None:
     """So that 500,000 of them take less than 4 GiB. Full buffers free the memory of the oldest."""
     replay = Replay((4, 84, 84), DqnSpec(capacity=300))
