@@ -10,17 +10,16 @@ the panel, and by drawing on the picture. Two times are printed:
   and points at the end of each straight line (1.1 s). The time to think is left out.
 """
 
-import os
 import tempfile
 import time
 from collections.abc import Callable
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 
-from playwright.sync_api import Browser, Page, sync_playwright
-from tests.browser.conftest import FLAGS, WEB, WIDE
+from playwright.sync_api import Browser, Page
+from tests.browser.conftest import WEB, WIDE
 from tests.browser.hands.pointer import Finger, Mouse
-from tests.browser.kit import Cell, Json, Learner, ask, find_chromium, log_in, wait_for_heading, way
+from tests.browser.kit import Cell, Json, Learner, ask, chromium, log_in, wait_for_heading, way
 from tests.browser.test_narrow import PHONE
 
 from waypost_server import serving
@@ -156,11 +155,7 @@ def main() -> None:
         settings = Settings(database=f"sqlite:///{folder}/waypost.db", page=WEB / "dist")
         served = stack.enter_context(serving.background(settings))
         learner = stack.enter_context(closing(Learner(served)))
-        playwright = stack.enter_context(sync_playwright())
-        browser = playwright.chromium.launch(
-            executable_path=find_chromium(os.environ.get("WAYPOST_CHROMIUM")), args=FLAGS
-        )
-        stack.callback(browser.close)
+        browser = stack.enter_context(chromium())
         for kind in WAYS:
             for by, touch, how in (
                 ("keyboard", False, "keys"),

@@ -7,7 +7,6 @@ script prints tables and asserts nothing.
 
 import argparse
 import gzip
-import os
 import statistics
 import tempfile
 import time
@@ -18,9 +17,9 @@ from typing import Any
 
 import httpx2
 from bench.assignments import machine, serving
-from playwright.sync_api import Browser, BrowserContext, Page, Response, sync_playwright
-from tests.browser.conftest import FLAGS, WEB, WIDE
-from tests.browser.kit import VOCABULARY, ask, find_chromium
+from playwright.sync_api import Browser, BrowserContext, Page, Response
+from tests.browser.conftest import WEB, WIDE
+from tests.browser.kit import VOCABULARY, ask, chromium
 
 PAUSES = (0.0, 0.5)  # seconds between the display of a query and the key press that answers it
 FIRST_LOADS = 5
@@ -129,14 +128,10 @@ def main() -> None:
         print("Nothing was measured, because the web app is not built. Run `make web` first.")
         return
     print(f"{machine()}\n")
-    with tempfile.TemporaryDirectory(prefix="wp", dir=Path.cwd()) as folder, sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=find_chromium(os.environ.get("WAYPOST_CHROMIUM")), args=FLAGS
-        )
+    with tempfile.TemporaryDirectory(prefix="wp", dir=Path.cwd()) as folder, chromium() as browser:
         print(f"Chromium {browser.version}.\n")
         with serving(f"sqlite:///{folder}/waypost.db") as (url, _, learner, annotators):
             measure(browser, url, Asker(url, learner), annotators[0], options.answers)
-        browser.close()
 
 
 def measure(browser: Browser, url: str, asker: Asker, annotator: dict[str, str], n_answers: int) -> None:

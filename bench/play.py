@@ -12,11 +12,11 @@ import statistics
 import tempfile
 from pathlib import Path
 
-from playwright.sync_api import Page, sync_playwright
-from tests.acceptance.person import ARROWS
+from playwright.sync_api import Page
 from tests.acceptance.processes import ServerProcess, free_port, start_learner
-from tests.browser.conftest import FLAGS, WIDE
-from tests.browser.kit import find_chromium
+from tests.browser.conftest import WIDE
+from tests.browser.hands.keyboard import press
+from tests.browser.kit import chromium
 
 from waypost import wire
 from waypost_learner.domains.maze.domain import MazeDomain
@@ -43,13 +43,13 @@ WATCH = """() => {
 }"""
 
 
-def play(page: Page, answer: wire.HierDemoAnswer, subgoals: tuple[str, ...]) -> None:
+def play(page: Page, answer: wire.HierDemoAnswer) -> None:
     """Play a demonstration step by step."""
     for segment in answer.segments:
-        page.keyboard.press(str(subgoals.index(segment.subgoal or "") + 1))
+        press(page, "Subgoal", segment.subgoal)
         for action in segment.actions:
             n = page.evaluate("times.drawn.length")
-            page.keyboard.press(ARROWS[action])
+            press(page, "Action", action)
             page.wait_for_function("n => times.drawn.length > n", arg=n)
         if segment is not answer.segments[-1]:
             page.keyboard.press("Enter")
@@ -59,11 +59,9 @@ def play(page: Page, answer: wire.HierDemoAnswer, subgoals: tuple[str, ...]) -> 
 
 def measure(server: ServerProcess, page: Page, steps: int) -> dict[str, list[float]]:
     """Return the milliseconds from each key press until the next state arrived, and until it was drawn."""
-    domain = MazeDomain()
-    expert, client = OracleExpert(domain), server.client("learner", "learner")
+    expert, client = OracleExpert(MazeDomain()), server.client("learner", "learner")
     page.add_init_script(f"({WATCH})()")
     page.goto(server.login_link("person"))
-    page.goto(f"{server.url}/work")
     found: dict[str, list[float]] = {"back": [], "drawn": []}
     last = ""
     while len(found["drawn"]) < steps:
@@ -73,7 +71,7 @@ def measure(server: ServerProcess, page: Page, steps: int) -> dict[str, list[flo
         answer = expert(client.query(int(last)).ask)
         assert isinstance(answer, wire.HierDemoAnswer)
         page.evaluate("times.back = [], times.drawn = []")
-        play(page, answer, domain.subgoals)
+        play(page, answer)
         for name, values in page.evaluate("({ back: times.back, drawn: times.drawn })").items():
             found[name] += values
     return found
@@ -84,17 +82,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--steps", type=int, default=300, help="the number of steps to measure")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+    with tempfile.TemporaryDirectory() as folder, chromium() as browser:
         server = ServerProcess(Path(folder), free_port())
         server.start()
         learner = start_learner(server, RUN)
-        browser = playwright.chromium.launch(
-            executable_path=find_chromium(os.environ.get("WAYPOST_CHROMIUM")), args=FLAGS
-        )
         try:
             found = measure(server, browser.new_page(viewport=WIDE), arguments.steps)
         finally:
-            browser.close()
             learner.kill()
             learner.communicate()
             server.stop()

@@ -1,15 +1,14 @@
 """A real server process for each test, a real browser, and a run to compare with."""
 
 import json
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import Page
 from tests.acceptance.processes import LENGTH, VALUES, Reference, ServerProcess, free_port, history, run_waypost
-from tests.browser.conftest import FLAGS, WIDE
-from tests.browser.kit import Complaints, find_chromium
+from tests.browser.conftest import WIDE
+from tests.browser.kit import Complaints, chromium
 
 from waypost_learner.remote.embedded import embedded
 
@@ -35,12 +34,8 @@ def in_process(tmp_path_factory: pytest.TempPathFactory) -> Reference:
 def page() -> Iterator[Page]:
     """A page of Chromium; the test fails if its console complains."""
     complaints = Complaints()
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=find_chromium(os.environ.get("WAYPOST_CHROMIUM")), args=FLAGS
-        )
+    with chromium() as browser:
         page = browser.new_page(viewport=WIDE)
         complaints.listen(page)
         yield page
-        browser.close()
     complaints.check()

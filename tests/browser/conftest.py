@@ -1,14 +1,13 @@
 """A real browser against a real server with the built page."""
 
-import os
 import subprocess
 from collections.abc import Callable, Iterator
 from itertools import count
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
-from tests.browser.kit import Complaints, Learner, find_chromium, log_in
+from playwright.sync_api import Browser, Page, expect
+from tests.browser.kit import Complaints, Learner, chromium, log_in
 
 from waypost import wire
 from waypost_server import serving
@@ -16,14 +15,6 @@ from waypost_server.serving import Served
 from waypost_server.settings import Settings
 
 WEB = Path(__file__).resolve().parents[2] / "web"
-FLAGS = [
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-gpu",
-    "--disable-quic",
-    "--disable-sync",
-    "--no-first-run",
-]
 WIDE = {"width": 1440, "height": 900}
 _numbers = count()
 expect.set_options(timeout=15_000)  # a busy machine is not a broken page
@@ -45,15 +36,12 @@ def built_page() -> Path:
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    """Chromium: WAYPOST_CHROMIUM, else the system's, else Playwright's own.
+    """Chromium.
 
     Not for the session: while Playwright runs, this thread has an event loop, and other tests bring their own.
     """
-    with sync_playwright() as playwright:
-        executable = find_chromium(os.environ.get("WAYPOST_CHROMIUM"))
-        browser = playwright.chromium.launch(executable_path=executable, args=FLAGS)
+    with chromium() as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="session")

@@ -1,11 +1,14 @@
 """What the page's tests are written with: a maze built by hand, a learner's queries, a browser to answer in."""
 
+import os
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
 import httpx2
-from playwright.sync_api import BrowserContext, ConsoleMessage, Page, expect
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, expect, sync_playwright
 
 from waypost import wire
 from waypost_server.auth import sessions, tokens
@@ -208,10 +211,28 @@ def log_in(context: BrowserContext, served: Served, name: str, role: wire.Role) 
 # --- a browser ------------------------------------------------------------------------------------------------------
 
 
-def find_chromium(named: str | None) -> str | None:
-    """The browser to use: the one named, else one on PATH, else (None) Playwright's own."""
+_FLAGS = [
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-gpu",
+    "--disable-quic",
+    "--disable-sync",
+    "--no-first-run",
+]
+
+
+@contextmanager
+def chromium() -> Iterator[Browser]:
+    """A running Chromium: the one that WAYPOST_CHROMIUM names, else one on PATH, else Playwright's own."""
     names = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-    return named or next((found for name in names if (found := shutil.which(name))), None)
+    on_path = next((found for name in names if (found := shutil.which(name))), None)
+    with sync_playwright() as playwright:
+        executable = os.environ.get("WAYPOST_CHROMIUM") or on_path
+        browser = playwright.chromium.launch(executable_path=executable, args=_FLAGS)
+        try:
+            yield browser
+        finally:
+            browser.close()
 
 
 @dataclass

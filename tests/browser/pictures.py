@@ -6,7 +6,6 @@ The questions are those of the tests. Without a store there is little to see of 
 
 import argparse
 import io
-import os
 import shutil
 import tempfile
 from collections.abc import Callable
@@ -15,10 +14,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from PIL import Image
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import Page
 from tests.browser import test_play
-from tests.browser.conftest import FLAGS, WEB, WIDE
-from tests.browser.kit import Learner, ask, find_chromium, log_in, wait_for_heading
+from tests.browser.conftest import WEB, WIDE
+from tests.browser.kit import Learner, ask, chromium, log_in, wait_for_heading
 
 from waypost.client import Client
 from waypost_learner.remote.stage import offer
@@ -150,11 +149,7 @@ def take_all(folder: Path, store: Path | None, looks: list[list[str]]) -> None:
         settings = Settings(database=f"sqlite:///{database}", page=WEB / "dist")
         served = stack.enter_context(serving.background(settings))
         learner = stack.enter_context(closing(Learner(served)))
-        playwright = stack.enter_context(sync_playwright())
-        browser = playwright.chromium.launch(
-            executable_path=find_chromium(os.environ.get("WAYPOST_CHROMIUM")), args=FLAGS
-        )
-        stack.callback(browser.close)
+        browser = stack.enter_context(chromium())
         there = learner.call("GET", "/runs?limit=200")["runs"]
         guided = [one["id"] for one in there if one["algorithm"] == "hg-dagger"]
         run = guided[0] if guided else learner.create_run()
