@@ -361,6 +361,7 @@ def _print_summary(summary: dict[str, Any], as_json: bool) -> None:
         return
     cost = summary["cost"]
     typer.echo(f"Run {summary['run']}: {summary['episodes']} episodes, {summary['ended']}.")
+    typer.echo(f"Told of the domain: {summary['told']}")
     typer.echo(f"Success on unseen instances, trailing 100: {summary['success_rate']:.0%}")
     typer.echo(f"Expert cost: {cost['total']:g} units")
     for kind, units in cost["by_kind"].items():

@@ -114,6 +114,7 @@ def test_training_without_json_prints_a_summary_for_people(trained: tuple[Path, 
     total = json.loads(trained[1])["cost"]["total"]
     assert f"Expert cost: {total:g} units" in result.stdout
     assert "8 episodes, finished." in result.stdout
+    assert "Told of the domain: nothing" in result.stdout
 
 
 def test_a_run_is_evaluated_on_as_many_episodes_as_asked_always_with_the_same_result(trained: tuple[Path, str]) -> None:
