@@ -66,7 +66,7 @@ class Exploration:
         if success >= self.spec.until:
             return NO_LEAD
         if not known.successes:
-            return Lead(self._way_to_explore(known, rng) + self._random_actions(rng), alone=True)
+            return Lead(self._way_to_explore(known, rng) + self._random_actions(rng), whole=True)
         if rng.random() >= self.spec.guided:
             return NO_LEAD
         way = known.successes[rng.integers(len(known.successes))]

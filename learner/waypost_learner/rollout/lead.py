@@ -10,7 +10,7 @@ class Lead:
     """The actions with which an attempt begins."""
 
     actions: tuple[Action, ...] = ()
-    alone: bool = False  # whether the attempt ends with them, so that its policy never chooses
+    whole: bool = False  # whether they are the whole attempt, so that its policy never chooses
 
 
 NO_LEAD = Lead()

@@ -130,7 +130,7 @@ def execute_subgoal(
     key, states, actions, rewards = pi(subgoal), [state], list[int](), list[float]()
     terminated, outcome = False, None
     lead = behavior.lead(key, state)
-    most = min(behavior.h_lo, len(lead.actions)) if lead.alone else behavior.h_lo
+    most = min(behavior.h_lo, len(lead.actions)) if lead.whole else behavior.h_lo
     while not terminated and not simulator.ended and len(actions) < most:
         if len(actions) < len(lead.actions):
             action = lead.actions[len(actions)]

@@ -43,7 +43,7 @@ def test_before_a_success_an_attempt_goes_to_a_known_place_and_then_acts_at_rand
     assert ways == {(), (0,), (0, 0), (0, 0, 0)}
     for _ in range(30):
         lead = exploration.lead(0, 0.0, rng)
-        assert lead.alone
+        assert lead.whole
         assert lead.actions[: -SPEC.wander] in ways
         ends |= set(lead.actions[-SPEC.wander :])
     assert ends == set(range(ACTIONS))
@@ -72,11 +72,11 @@ def test_after_a_success_some_attempts_begin_with_a_part_of_it_until_the_policy_
     success = (0, 1, 2, 3, 0, 1)
     assert exploration.learn(success, places(success), reached=True)
     leads = [exploration.lead(0, 0.49, rng) for _ in range(200)]
-    assert all(not lead.alone and lead.actions == success[: len(lead.actions)] for lead in leads)
+    assert all(not lead.whole and lead.actions == success[: len(lead.actions)] for lead in leads)
     assert {len(lead.actions) for lead in leads} == set(range(len(success)))
     assert 0.4 < np.mean([lead is NO_LEAD for lead in leads]) < 0.6
     assert all(exploration.lead(0, 0.5, rng) is NO_LEAD for _ in range(20))
-    assert exploration.lead("elsewhere", 0.49, rng).alone  # from there, nothing succeeded yet
+    assert exploration.lead("elsewhere", 0.49, rng).whole  # from there, nothing succeeded yet
 
 
 def test_only_the_shortest_successes_are_kept_and_shown() -> None:

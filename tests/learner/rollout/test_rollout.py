@@ -216,11 +216,11 @@ def test_with_given_terminations_a_subgoal_ends_where_the_domain_says_and_fails_
 
 
 @pytest.mark.parametrize(
-    ("alone", "actions", "outcomes"),
+    ("whole", "actions", "outcomes"),
     [(True, [(0, 0)], ["failed"]), (False, [(0, 0, 1, 1, 1, 1)] * 2, ["reached", "failed"])],
 )
 def test_an_attempt_can_begin_with_given_actions_and_if_it_fails_the_rollout_ends(
-    alone: bool, actions: list[tuple[int, ...]], outcomes: list[str]
+    whole: bool, actions: list[tuple[int, ...]], outcomes: list[str]
 ) -> None:
     policies, asked = corridor_policies(beta=0.0), []
     behavior = Behavior(
@@ -229,7 +229,7 @@ def test_an_attempt_can_begin_with_given_actions_and_if_it_fails_the_rollout_end
         h_hi=3,
         h_lo=H_LO,
         terminations_given=True,
-        lead=lambda key, _: asked.append(key) or Lead((0, 0), alone),
+        lead=lambda key, _: asked.append(key) or Lead((0, 0), whole),
     )
     sigma = run(hierarchical_rollout(Simulator(CorridorDomain()), Corridor(6, 12), behavior), policies)
     assert [segment.actions for segment in sigma] == actions
