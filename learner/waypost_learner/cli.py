@@ -56,7 +56,7 @@ def train(
     algorithm: Annotated[str, typer.Argument(help="The algorithm, such as hg-dagger; an unknown name lists all.")],
     domain: Annotated[str, typer.Option(help="The domain.")] = "maze",
     instances: Annotated[str, typer.Option(help="Instances: a name (maze: random, corners) or a file.")] = "random",
-    preset: Annotated[str, typer.Option(help="The preset: lean or paper.")] = "lean",
+    preset: Annotated[str, typer.Option(help="The preset: lean, general or paper.")] = "lean",
     seed: Annotated[int, typer.Option(min=0, help="The seed of every random choice.")] = 0,
     episodes: Annotated[int, typer.Option(min=1, help="How many episodes.")] = 1000,
     warm_start: Annotated[

@@ -5,7 +5,7 @@ from collections.abc import Hashable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
-from itertools import chain
+from itertools import chain, pairwise
 from typing import Any
 
 import numpy as np
@@ -13,10 +13,11 @@ import torch
 
 from waypost.domains import Domain, Placed, Symmetry, symmetries_of
 from waypost.trajectory import Segment, State, Trajectory
-from waypost_learner.policies.datasets import Dataset
+from waypost_learner.policies.datasets import Dataset, Row
 from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.dqn import DqnSpec, QFunction
 from waypost_learner.policies.exploration import Exploration
+from waypost_learner.policies.fields.shared_policy import SharedPolicy
 from waypost_learner.policies.imitation import Policy
 from waypost_learner.policies.labels import (
     Derives,
@@ -27,7 +28,7 @@ from waypost_learner.policies.labels import (
     transformed_rows,
 )
 from waypost_learner.policies.levels import HIERARCHY, Levels
-from waypost_learner.policies.views import policy_view
+from waypost_learner.policies.views import Evaluate, PolicyView, policy_view, shared_view
 from waypost_learner.presets.base import Preset
 from waypost_learner.rollout import streams
 from waypost_learner.rollout.experience import Experience, experience_of
@@ -70,13 +71,16 @@ class Learner:
         self.domain, self.preset, self.seed, self.levels = domain, preset, seed, levels
         self._head_start = head_start
         keys = levels.keys(len(domain.subgoals))
-        self.views = {key: policy_view(domain, self._use(key), preset.training.network, key) for key in keys}
+        self.shared = self._shared(keys[0])
+        self.views = {key: self._view(key, keys[0]) for key in keys}
         owners = [key for key in keys if self.views[key].owner == key]
         self.q = {key: self._q_function(key) for key in owners if levels.is_q_function(key)}
-        self.imitators = {key: self._policy(key) for key in owners if key not in self.q}
-        self.learned: dict[PolicyKey, Policy | QFunction] = {**self.imitators, **self.q}
-        self.policies = {key: view.wrap(self.learned[view.owner]) for key, view in self.views.items()}
-        self.data = {key: Dataset(self.views[key].view.shape) for key in self.imitators}
+        self.imitators: dict[PolicyKey, Policy | SharedPolicy] = {
+            key: self.shared or self._policy(key) for key in owners if key not in self.q
+        }
+        self.learned: dict[PolicyKey, Policy | SharedPolicy | QFunction] = {**self.imitators, **self.q}
+        self.policies = {key: self._evaluated(key) for key in keys}
+        self.data = {key: Dataset(self.views[key].view.shape) for key in (keys if self.shared else self.imitators)}
         self.explorations = dict(self._explorations(keys))
         self._together: Sequence[Start] = ()  # whose rollouts `roll_out` makes when it is given the first of them
         self._rolled_out: dict[Start, Trajectory] = {}  # their rollouts that were not returned yet
@@ -85,6 +89,26 @@ class Learner:
         # depends on its own data and generator alone, so the number of threads changes nothing but the time.
         torch.set_num_threads(1)
         self._threads = ThreadPoolExecutor(threads or os.cpu_count(), initializer=torch.set_num_threads, initargs=(1,))
+
+    def _shared(self, owner: PolicyKey) -> SharedPolicy | None:
+        """Return the network that all policies share, if the preset has one, all imitate and they see pictures."""
+        training, domain = self.preset.training, self.domain
+        if training.fields is None or self.levels.reinforced or len(domain.observation_shape) != 3:
+            return None
+        sizes = len(domain.subgoals), len(domain.actions)
+        return SharedPolicy(domain.observation_shape, *sizes, training.fields, training.train_shared, self._seed(owner))
+
+    def _view(self, key: PolicyKey, owner: PolicyKey) -> PolicyView:
+        if self.shared is not None:
+            return shared_view(self.domain, owner)
+        return policy_view(self.domain, self._use(key), self.preset.training.network, key)
+
+    def _evaluated(self, key: PolicyKey) -> Evaluate:
+        if self.shared is not None:
+            return self.shared.of(key)
+        view, learned = self.views[key], self.learned[self.views[key].owner]
+        assert not isinstance(learned, SharedPolicy)
+        return view.wrap(learned)
 
     def _use(self, key: PolicyKey) -> DomainUse:
         use = self.preset.use
@@ -95,10 +119,12 @@ class Learner:
         hi = training.train_hi_hybrid if self.levels.q_lo else training.train_hi
         train = {"hi": hi, "lo": training.train_lo, "flat": training.train_flat}[key.level]
         terminates = key.subgoal is not None
+        assert view.network is not None
         return Policy(view.view.shape, self._n_choices(key), terminates, view.network, train, self._seed(key))
 
     def _q_function(self, key: PolicyKey) -> QFunction:
         view = self.views[key]
+        assert view.network is not None
         return QFunction(view.view.shape, self._n_choices(key), view.network, self._dqn(key), self._seed(key))
 
     def _dqn(self, key: PolicyKey) -> DqnSpec:
@@ -207,17 +233,41 @@ class Learner:
         self._append_rows(rows, symmetries_of(self.domain) if use.symmetries else ())
         if self.q:
             self._remember(list(self._experience_of(labels)))
-        self.due = [
-            key
-            for key, policy in self.imitators.items()
-            if policy.spec.every_episode or len(self.data[key]) > sizes[key]
-        ]
-        list(self._threads.map(lambda key: self.imitators[key].train(self.data[key]), self.due))
+        if self.shared is not None:
+            self.shared.see(list(self._transitions_of(labels)))
+        grown = {self.views[key].owner for key, data in self.data.items() if len(data) > sizes[key]}
+        self.due = [key for key, policy in self.imitators.items() if policy.spec.every_episode or key in grown]
+        list(self._threads.map(self._train, self.due))
 
     def train_idle(self) -> None:
         """Train the policies that the last `learn` trained again, each on the `idle` rows of its specification."""
-        list(self._threads.map(lambda key: self.imitators[key].train_idle(self.data[key]), self.due))
+        list(self._threads.map(self._train_idle, self.due))
         self.due = []
+
+    def _train(self, key: PolicyKey) -> None:
+        policy = self.imitators[key]
+        if isinstance(policy, SharedPolicy):
+            policy.train(self.data)
+        else:
+            policy.train(self.data[key])
+
+    def _train_idle(self, key: PolicyKey) -> None:
+        policy = self.imitators[key]
+        if isinstance(policy, SharedPolicy):
+            policy.train_idle(self.data)
+        else:
+            policy.train_idle(self.data[key])
+
+    def _transitions_of(self, labels: Labels) -> Iterator[Row]:
+        """Yield the observations before and after each action of demonstrations and of a flat policy's rollouts."""
+        symmetries = symmetries_of(self.domain) if self.preset.use.symmetries else ()
+        trajectories = [*labels.demonstrations, *(trajectory for trajectory, _ in labels.flat)]
+        for segment in chain.from_iterable(trajectories):
+            for (before, after), action in zip(pairwise(segment.states), segment.actions, strict=True):
+                pair = before.observation, after.observation
+                yield Row(np.stack(pair), action)
+                for each in symmetries:
+                    yield Row(np.stack([each.observe(one) for one in pair]), each.actions[action])
 
     def _append_rows(self, rows: Rows, symmetries: Sequence[Symmetry]) -> None:
         """Append rows to the buffers, then the same rows transformed by each symmetry.

@@ -46,13 +46,13 @@ class PolicyView:
 
     Args:
         view: the part of an observation that it sees.
-        network: the kind and the sizes of its network.
+        network: the kind and the sizes of its network; None if all policies share one.
         owner: the policy whose network it uses: itself, or the policy that it is tied to.
         symmetry: maps its task to the owner's task; None if it is its own owner.
     """
 
     view: View
-    network: NetworkSpec | PlanningSpec
+    network: NetworkSpec | PlanningSpec | None
     owner: PolicyKey
     symmetry: Symmetry | None
 
@@ -62,6 +62,11 @@ class PolicyView:
         if symmetry is not None:
             return WrappedPolicy(owner, lambda whole: observe(symmetry.observe(whole)), symmetry.actions)
         return owner if observe is _unchanged else WrappedPolicy(owner, observe, None)
+
+
+def shared_view(domain: Domain, owner: PolicyKey) -> PolicyView:
+    """Return the view of a policy that shares its network, named by its owner, with all others: the observation."""
+    return PolicyView(View(domain.observation_shape, _unchanged), None, owner, None)
 
 
 def policy_view(domain: Domain, use: DomainUse, network: NetworkSpec, key: PolicyKey) -> PolicyView:

@@ -8,6 +8,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from waypost_learner.presets import montezuma
 from waypost_learner.presets.base import Preset, groups_by_value, value_of
+from waypost_learner.presets.general import GENERAL
 from waypost_learner.presets.lean import LEAN
 from waypost_learner.presets.paper import PAPER
 from waypost_learner.presets.told import refuse_more_than, told_at_most
@@ -15,7 +16,7 @@ from waypost_learner.presets.told import refuse_more_than, told_at_most
 Changes = dict[str, "str | Changes"]
 """New values as JSON texts, by name; values of a group are nested."""
 
-PRESETS = {"lean": LEAN, "paper": PAPER}
+PRESETS = {"lean": LEAN, "paper": PAPER, "general": GENERAL}
 PRESETS_OF = {("montezuma", "lean"): montezuma.LEAN, ("montezuma", "paper"): montezuma.PAPER}
 """The presets of single domains, by domain and name, where they differ from `PRESETS`."""
 

@@ -7,6 +7,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from waypost_learner.policies.domain_use import NOTHING_DECLARED, DomainUse
 from waypost_learner.policies.dqn import DqnSpec
+from waypost_learner.policies.fields.field_net import FieldSpec
 from waypost_learner.policies.imitation import TrainSpec
 from waypost_learner.policies.networks import NetworkSpec
 from waypost_learner.presets.monitoring import EVERY_EPISODE, Monitoring
@@ -23,6 +24,9 @@ class Training:
     train_flat: TrainSpec  # of a flat policy
     train_hi_hybrid: TrainSpec  # of mu where each pi_g is a Q-function, which takes many more episodes
     dqn: DqnSpec  # of Q-functions
+    # One network for all policies instead, if all imitate and observations are pictures; one for each if None.
+    fields: FieldSpec | None = None
+    train_shared: TrainSpec = field(default_factory=TrainSpec)  # of that network
     # Whether pi_g and flat policies imitate what they did themselves where the expert passed it. This costs nothing.
     from_passed: bool = False
     # Other values of the Q-functions of single subgoals, by the subgoal's name, such as {"stair": {"least": 1000}}.

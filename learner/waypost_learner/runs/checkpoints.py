@@ -5,6 +5,7 @@ Tensors, where KEY is a policy's number (`PolicyKey.number`):
 - `policy.KEY.NAME`: the weights that act. A finished run's checkpoint has only these.
 - `optimizer.KEY.INDEX.NAME`, `rng.KEY`, `data.KEY.*`: the optimizer, the random generator, the buffer.
 - `due`: the policies that train while the expert answers the next query.
+- `transitions.*`: what the policies that share a network learned from where the agent is.
 - `trained.KEY.NAME`, `averaged.KEY`: if an average of the weights acts, the trained weights and the number of updates.
 - `target.KEY.NAME`, `counts.KEY`, `attempts.KEY`: a Q-function's target network; its steps, its updates and whether
   any attempt succeeded; its last attempts.
@@ -109,11 +110,14 @@ def _restore(tensors: Tensors, learner: Learner) -> None:
     learner.due = [PolicyKey.of_number(n) for n in tensors["due"].tolist()] if "due" in tensors else []
     for key, policy in learner.imitators.items():
         n = key.number
-        if f"rng.{n}" in tensors:
-            if policy.average is not None:
-                policy.network.load_state_dict(_below(tensors, f"trained.{n}."))
-                policy.average.n_averaged.copy_(tensors[f"averaged.{n}"])
-            learner.data[key].load(_below(tensors, f"data.{n}."))
+        if f"rng.{n}" in tensors and policy.average is not None:
+            policy.network.load_state_dict(_below(tensors, f"trained.{n}."))
+            policy.average.n_averaged.copy_(tensors[f"averaged.{n}"])
+    for key, data in learner.data.items():
+        if f"data.{key.number}.labels" in tensors:
+            data.load(_below(tensors, f"data.{key.number}."))
+    if learner.shared is not None and "transitions.labels" in tensors:
+        learner.shared.transitions.load(_below(tensors, "transitions."))
     for key, q in learner.q.items():
         n = key.number
         if f"rng.{n}" in tensors:
@@ -150,6 +154,9 @@ def _training_state(learner: Learner) -> Tensors:
         tensors[f"rng.{key.number}"] = policy.rng.get_state()
     for key, data in learner.data.items():
         tensors |= {f"data.{key.number}.{name}": tensor for name, tensor in data.tensors().items()}
+    if learner.shared is not None:
+        transitions = learner.shared.transitions.tensors()
+        tensors |= {f"transitions.{name}": tensor for name, tensor in transitions.items()}
     for key, policy in learner.imitators.items():
         if policy.average is not None:
             tensors |= {f"trained.{key.number}.{name}": tensor for name, tensor in policy.network.state_dict().items()}

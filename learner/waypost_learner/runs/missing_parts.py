@@ -34,6 +34,10 @@ def missing_parts(learner: Learner) -> dict[str, str]:
     plans = any(isinstance(view.network, PlanningSpec) for view in learner.views.values())
     wanted = (use.symmetries and levels.imitating) or (preset.training.dqn.symmetries and levels.reinforced)
     checks = {
+        "fields": (
+            preset.training.fields is not None and levels.imitating and learner.shared is None,
+            "Each policy has its own network: only policies that all imitate, and that see pictures, share one.",
+        ),
         "symmetries": (wanted and not symmetries_of(domain), "Labels are learned only as they were given."),
         "views": (use.views and not isinstance(domain, Viewed), "Policies see whole observations."),
         "centered": (

@@ -50,6 +50,8 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
     levels, domain, preset = algorithm.levels, learner.domain, learner.preset
     planned = {key for key in learner.learned if isinstance(learner.views[key].network, PlanningSpec)}
     hi = not (levels.flat or levels.q_hi)
+    own = learner.shared is None  # whether each policy has its own network
+    shared = "all policies share one network (fields)"
     checks = {
         "warm_start": (
             algorithm.interactive and not levels.q_lo,
@@ -68,11 +70,22 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
         ),
         "choosing": (levels.imitating, f"{name} chooses epsilon-greedily (dqn.epsilon)"),
         "choosing.termination_threshold": (not levels.flat and not levels.q_lo, f"{name} has no beta_g"),
-        "network": (planned < learner.learned.keys(), "all its networks plan (planning)"),
-        "train_hi": (hi and not levels.q_lo, f"{name} has no mu that imitates, or trains it with train_hi_hybrid"),
+        "fields": (
+            not levels.reinforced and len(domain.observation_shape) == 3,
+            f"{name} has a Q-function, or the domain {domain.name!r} shows no pictures",
+        ),
+        "train_shared": (not own, "its policies share no network (fields)"),
+        "network": (own and planned < learner.learned.keys(), f"all its networks plan (planning), or {shared}"),
+        "train_hi": (
+            hi and own and not levels.q_lo,
+            f"{name} has no mu that imitates, trains it with train_hi_hybrid, or {shared}",
+        ),
         "train_hi_hybrid": (hi and levels.q_lo, f"{name} has no mu that imitates beside Q-functions"),
-        "train_lo": (not levels.flat and not levels.q_lo, f"{name} has no pi_g that imitates"),
-        "train_flat": (levels.flat and not levels.q_lo, f"{name} has no flat policy that imitates"),
+        "train_lo": (own and not levels.flat and not levels.q_lo, f"{name} has no pi_g that imitates, or {shared}"),
+        "train_flat": (
+            own and levels.flat and not levels.q_lo,
+            f"{name} has no flat policy that imitates, or {shared}",
+        ),
         "from_passed": (
             algorithm.monitored and not levels.q_lo,
             f"in {name} the expert passes nothing that a policy could imitate",
@@ -92,14 +105,15 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
             any(view.symmetry is not None for view in learner.views.values()),
             f"{name} has no subgoals, or none in the domain {domain.name!r} are equal up to a symmetry",
         ),
-        "views": (isinstance(domain, Viewed), f"the domain {domain.name!r} declares no views"),
+        "views": (own and isinstance(domain, Viewed), f"the domain {domain.name!r} declares no views, or {shared}"),
         "centered": (
-            isinstance(domain, Centered) and ((levels.imitating and not levels.q_lo) or not preset.use.views),
-            f"{name} has no policy that imitates actions, or the domain {domain.name!r} declares no centered view",
+            own and isinstance(domain, Centered) and ((levels.imitating and not levels.q_lo) or not preset.use.views),
+            f"{name} has no policy that imitates actions, the domain {domain.name!r} declares no centered view, "
+            f"or {shared}",
         ),
         "crop": (
-            isinstance(domain, Cropped) and not levels.flat,
-            f"{name} has no subgoals, or the domain {domain.name!r} declares no crop",
+            own and isinstance(domain, Cropped) and not levels.flat,
+            f"{name} has no subgoals, or the domain {domain.name!r} declares no crop, or {shared}",
         ),
         "planning": (bool(planned), f"no policy of {name} has a view of the domain {domain.name!r} that shows places"),
         "relabeling": (

@@ -1,0 +1,138 @@
+"""A network for pictures that plans by spreading fields over the pixels, and is told nothing of the domain.
+
+It finds the agent (`AgentFinder`), sees where its actions move it, and learns which pixels can be passed, where the
+task ends, and where each subgoal ends near the agent. All of it comes from the expert's labels.
+"""
+
+from dataclasses import dataclass
+
+import torch
+from torch import nn
+from torch.nn import functional
+
+from waypost_learner.policies.fields.agent_finder import AgentFinder, Transitions
+
+
+@dataclass(frozen=True)
+class FieldSpec:
+    """Sizes of a network that spreads fields."""
+
+    far: int = 64  # steps over which the task's field spreads
+    near: int = 12  # steps over which the field of a subgoal's ends spreads
+    reach: int = 5  # pixels from the agent to the farthest end of a subgoal, in each direction
+    ending: int = 3  # pixels from the agent that beta_g sees, in each direction
+    features: int = 32  # of a pixel, for the ends of subgoals
+    hidden: int = 64  # units of beta_g
+    gain: float = 2.8  # the sum of a spreading step's weights; gates are below 1, so that fields stay finite
+
+
+_GATE_FEATURES = 16
+_SHARPNESS = 5.0  # of the attention to the pixels where the task ends
+_FAINT = -3.0  # the first logit of a subgoal's ends
+_LEAST = 1e-300  # about the smallest number whose logarithm float64 can tell
+
+
+class FieldNet(nn.Module):
+    """One network for mu, all pi_g with beta_g, and a flat policy.
+
+    A field h spreads from a source e through gates p between 0 and 1: h <- p * (W @ h) + e, where W moves to the
+    neighboring pixels to which actions move the agent. It is a soft value iteration (Tamar et al. 2016) in exp(V). The
+    task's field spreads from where the task ends, a subgoal's field from where the subgoal ends. pi_g climbs the
+    subgoal's field. For mu, each end of a subgoal counts as much as the task's field there.
+
+    Args:
+        channels: of the pictures.
+        n_subgoals: the number of subgoals.
+        n_actions: the number of actions.
+        spec: the sizes.
+        rng: draws initial weights.
+    """
+
+    def __init__(self, channels: int, n_subgoals: int, n_actions: int, spec: FieldSpec, rng: torch.Generator) -> None:
+        super().__init__()
+        self.spec, self.n_actions = spec, n_actions
+        self.finder = AgentFinder(channels, n_actions).requires_grad_(False)
+        self.register_buffer("displacements", torch.full((n_actions, 9), 1 / 9))
+        self.move_weights = nn.Parameter(torch.zeros(n_actions))
+        self.gates = nn.Sequential(
+            nn.Conv2d(channels, _GATE_FEATURES, 3, padding=1), nn.ReLU(), nn.Conv2d(_GATE_FEATURES, 1, 1)
+        )
+        self.source = nn.Conv2d(channels, 1, 1)
+        self.near = nn.ModuleList(
+            [
+                nn.Conv2d(channels, spec.features, 3, padding=1),
+                nn.Conv2d(spec.features, spec.features, 3, padding=1),
+                nn.Conv2d(spec.features, n_subgoals, 1),
+            ]
+        )
+        side = 2 * spec.reach + 1
+        self.place = nn.Parameter(torch.zeros(spec.features, side, side))  # tells apart pixels around the agent
+        self.ends_place = nn.Parameter(torch.zeros(n_subgoals, side, side))
+        self.termination = nn.Sequential(
+            nn.Flatten(),
+            nn.Linear(channels * (2 * spec.ending + 1) ** 2, spec.hidden),
+            nn.ReLU(),
+            nn.Linear(spec.hidden, n_subgoals),
+        )
+        for layer in self.modules():
+            if isinstance(layer, nn.Conv2d | nn.Linear):
+                nn.init.xavier_uniform_(layer.weight, generator=rng)
+                nn.init.zeros_(layer.bias)  # type: ignore[arg-type]  # all layers have biases
+        nn.init.constant_(self.near[2].bias, _FAINT)  # type: ignore[arg-type]
+
+    def find_agent(self, transitions: Transitions, rng: torch.Generator) -> None:
+        """Learn to find the agent, and where each action moves it, from transitions."""
+        self.finder.requires_grad_(True).fit(transitions, rng)
+        self.finder.requires_grad_(False)
+        self.displacements = self.finder.displacements(transitions)
+
+    def forward(self, x: torch.Tensor) -> dict[str, torch.Tensor]:
+        """Return all outputs for pictures float32[B, C, rows, columns].
+
+        `hi` float32[B, subgoals]: logits of mu. `lo` float32[B, subgoals, actions]: logits of each pi_g.
+        `termination` float32[B, subgoals]: logits of each beta_g. `flat` float32[B, actions]: logits of a flat policy.
+        """
+        spec, agent = self.spec, self.finder.find(x)
+        gates = torch.sigmoid(-self.gates(x)).double()
+        source = torch.softmax(_SHARPNESS * self.source(x).flatten(1), 1).view_as(gates).double()
+        task = self._spread(gates, source, spec.far)
+        patch, near_gates, near_task = (_around(one, agent, spec.reach) for one in (x, gates, task))
+        ends = near_gates * torch.sigmoid(self._ends(patch)).double()  # a subgoal ends only where one can pass
+        both = torch.cat([ends, ends * near_task], 1)
+        subgoals = self._spread(near_gates.expand_as(both), both, spec.near)
+        lo, hi = subgoals.chunk(2, 1)
+        return {
+            "hi": torch.log(hi[:, :, spec.reach, spec.reach] + _LEAST).float(),
+            "lo": self._climb(lo[:, :, spec.reach - 1 : spec.reach + 2, spec.reach - 1 : spec.reach + 2]),
+            "termination": self.termination(_around(x, agent, spec.ending)),
+            "flat": self._climb(_around(task, agent, 1)).squeeze(1),
+        }
+
+    def _ends(self, patch: torch.Tensor) -> torch.Tensor:
+        """Return the logits of each subgoal's ends float32[B, subgoals, side, side] around the agent."""
+        first, second, third = self.near
+        seen = functional.relu(second(functional.relu(first(patch))) + self.place)
+        return torch.add(third(seen), self.ends_place)
+
+    def _spread(self, gates: torch.Tensor, source: torch.Tensor, steps: int) -> torch.Tensor:
+        """Spread fields float64[B, K, rows, columns]."""
+        weights = self.spec.gain * torch.softmax(self.move_weights, 0) @ self.displacements
+        kernel = weights.double().view(1, 1, 3, 3)
+        one_each = [one.flatten(0, 1).unsqueeze(1) for one in (gates, source)]  # one kernel serves all K fields
+        field = one_each[1]
+        for _ in range(steps):
+            field = torch.addcmul(one_each[1], one_each[0], functional.conv2d(field, kernel, padding=1))
+        return field.view_as(source)
+
+    def _climb(self, around: torch.Tensor) -> torch.Tensor:
+        """Return the logits of actions float32[B, K, actions], given fields float64[B, K, 3, 3] around the agent."""
+        return torch.log(around.flatten(2) @ self.displacements.double().T + _LEAST).float()
+
+
+def _around(x: torch.Tensor, agent: torch.Tensor, reach: int) -> torch.Tensor:
+    """Return the pixels [B, C, side, side] around the agent's int64[B, 2] row and column; 0 outside the picture."""
+    padded = functional.pad(x, (reach, reach, reach, reach)).permute(0, 2, 3, 1)
+    span = torch.arange(2 * reach + 1)
+    rows, columns = (agent[:, one, None] + span for one in (0, 1))
+    every = torch.arange(len(x))[:, None, None]
+    return padded[every, rows[:, :, None], columns[:, None, :]].permute(0, 3, 1, 2)

@@ -1,0 +1,198 @@
+"""One network for all imitation policies, which plans by spreading fields (`FieldNet`), and its Train."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import nn
+from torch.nn import functional
+from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
+
+from waypost.trajectory import Observation
+from waypost_learner.policies.datasets import UNLABELED, Dataset, Row
+from waypost_learner.policies.device import DEVICE, as_input, to_device
+from waypost_learner.policies.fields.field_net import FieldNet, FieldSpec
+from waypost_learner.policies.imitation import TrainSpec
+from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
+from waypost_learner.rollout.rollout import Outputs
+
+_TRANSITIONS = 1_000  # with as many, the agent is no longer looked for
+_CLIP = 1.0  # the largest norm of a gradient
+_FLAT_WEIGHT = 0.3  # of the loss of flat actions beside a hierarchy, which gets no labels for them
+_HALF_RATE = 400  # updates after which the learning rate is half of the first one ...
+_LEAST_RATE = 0.2  # ... of which this share remains
+
+Data = Mapping[PolicyKey, Dataset]
+
+
+@dataclass(frozen=True)
+class _Batch:
+    observations: torch.Tensor  # float32[B, C, rows, columns]
+    hi: torch.Tensor  # int64[B], the right subgoal
+    subgoal: torch.Tensor  # int64[B], whose pi_g has the labels of action and termination; 0 for other policies
+    action: torch.Tensor  # int64[B], of pi_g
+    termination: torch.Tensor  # int64[B]
+    flat: torch.Tensor  # int64[B], the action of a flat policy
+
+
+class SharedPolicy:
+    """mu and every pi_g with beta_g, or a flat policy, as one network.
+
+    Where the expert said how to act toward a subgoal, that subgoal and that action were right. So these labels also
+    train mu, and the task's field by a flat policy's loss. No label is needed for that.
+
+    Args:
+        observation_shape: (channels, rows, columns) of the observations, which are pictures.
+        n_subgoals: the number of subgoals.
+        n_actions: the number of actions.
+        network: the sizes of the network.
+        train: the learning parameters of Train; `averaging` is needed.
+        seed: fixes initial weights and the order of rows.
+    """
+
+    def __init__(
+        self,
+        observation_shape: tuple[int, ...],
+        n_subgoals: int,
+        n_actions: int,
+        network: FieldSpec,
+        train: TrainSpec,
+        seed: int,
+    ) -> None:
+        if train.averaging is None:
+            raise ValueError("a network that spreads fields needs an averaging; write a number below 1")
+        self.spec = train
+        self.rng = torch.Generator().manual_seed(seed)
+        self.network = FieldNet(observation_shape[0], n_subgoals, n_actions, network, self.rng).to(DEVICE).eval()
+        self.optimizer = torch.optim.AdamW(
+            [one for one in self.network.parameters() if one.requires_grad],
+            lr=train.learning_rate,
+            weight_decay=train.weight_decay,
+            fused=True,
+        )
+        decaying = get_ema_multi_avg_fn(train.averaging)  # type: ignore[no-untyped-call]  # torch has no types here
+        self.average = AveragedModel(self.network, multi_avg_fn=decaying)
+        self.transitions = Dataset((2, *observation_shape))  # pictures before and after an action
+
+    @property
+    def acting(self) -> nn.Module:
+        """The network that acts: the average of its weights over the updates."""
+        return self.average.module
+
+    def of(self, key: PolicyKey) -> "PartPolicy":
+        """Return one policy as a function of observations."""
+        return PartPolicy(self, key)
+
+    def see(self, transitions: Sequence[Row]) -> None:
+        """Learn where the agent is in a picture, and where each action moves it, until enough transitions were seen.
+
+        Args:
+            transitions: rows of [2, observation shape], the pictures before and after the choice.
+        """
+        if not transitions or len(self.transitions) >= _TRANSITIONS:
+            return
+        self.transitions.append(transitions)
+        pictures, labels = self.transitions[range(len(self.transitions))]
+        self.network.find_agent((pictures[:, 0], labels[:, 0], pictures[:, 1]), self.rng)
+        acting = self.acting
+        assert isinstance(acting, FieldNet)
+        acting.finder.load_state_dict(self.network.finder.state_dict())
+        acting.displacements = self.network.displacements.clone()
+
+    def train(self, data: Data) -> None:
+        """Train(policy, D) for all policies together: passes over all rows, each in a new random order."""
+        n = sum(map(len, data.values()))
+        self._fit(data, min(max(self.spec.passes * n, self.spec.least), self.spec.most))
+
+    def train_idle(self, data: Data) -> None:
+        """Train as `train` does, on as many more rows as `idle` says. The caller does this while the expert answers."""
+        self._fit(data, self.spec.idle)
+
+    def _fit(self, data: Data, n_rows: int) -> None:
+        rows = [(key, row) for key, one in data.items() for row in range(len(one))]
+        if not rows or not n_rows:
+            return
+        passes = math.ceil(n_rows / len(rows))
+        order = torch.cat([torch.randperm(len(rows), generator=self.rng) for _ in range(passes)])[:n_rows]
+        self.network.train()
+        for some in torch.split(order, self.spec.batch):
+            batch = _batch(data, [rows[i] for i in some.tolist()])
+            for group in self.optimizer.param_groups:
+                group["lr"] = self.spec.learning_rate * self._rate()
+            loss = self._loss(self.network(to_device(batch.observations)), batch)
+            self.optimizer.zero_grad()
+            torch.autograd.backward(loss)
+            nn.utils.clip_grad_norm_(self.network.parameters(), _CLIP)
+            self.optimizer.step()
+            self.average.update_parameters(self.network)
+        self.network.eval()
+
+    def _rate(self) -> float:
+        return max(_LEAST_RATE, 1 / (1 + int(self.average.n_averaged) / _HALF_RATE))
+
+    def _loss(self, out: dict[str, torch.Tensor], batch: _Batch) -> torch.Tensor:
+        """Return the sum of the mean cross-entropies over the rows that have a label of each kind."""
+        every = torch.arange(len(batch.hi))
+        ending = out["termination"][every, batch.subgoal]
+        labeled = (batch.termination != UNLABELED).float()
+        terminations = functional.binary_cross_entropy_with_logits(
+            ending, batch.termination.clamp(min=0).float(), labeled, reduction="sum"
+        ) / labeled.sum().clamp(min=1)
+        hierarchy = bool((batch.hi != UNLABELED).any())
+        return (
+            _cross_entropy(out["hi"], batch.hi)
+            + _cross_entropy(out["lo"][every, batch.subgoal], batch.action)
+            + terminations
+            + (_FLAT_WEIGHT if hierarchy else 1.0) * _cross_entropy(out["flat"], batch.flat)
+        )
+
+
+class PartPolicy:
+    """One of the policies that share a network."""
+
+    def __init__(self, shared: SharedPolicy, key: PolicyKey) -> None:
+        self._shared, self._key = shared, key
+
+    @torch.inference_mode()
+    def __call__(self, observations: Observation) -> Outputs:
+        """Return the outputs for a batch float32 or uint8[B, C, rows, columns]."""
+        out = self._shared.acting(as_input(observations).to(DEVICE))
+        none = np.zeros(len(observations), np.float32)
+        if self._key == META:
+            return Outputs(out["hi"].cpu().numpy(), none)
+        if self._key == FLAT:
+            return Outputs(out["flat"].cpu().numpy(), none)
+        ending = torch.sigmoid(out["termination"][:, self._key.subgoal])
+        return Outputs(out["lo"][:, self._key.subgoal].cpu().numpy(), ending.cpu().numpy())
+
+
+def _cross_entropy(logits: torch.Tensor, labels: torch.Tensor) -> torch.Tensor:
+    """Return the mean cross-entropy over labeled rows; 0 without any."""
+    n = (labels != UNLABELED).sum().clamp(min=1)
+    return functional.cross_entropy(logits, labels, ignore_index=UNLABELED, reduction="sum") / n
+
+
+def _batch(data: Data, rows: list[tuple[PolicyKey, int]]) -> _Batch:
+    seen, labels, keys = [], [], []
+    for key in data:
+        chosen = [row for one, row in rows if one == key]
+        if chosen:
+            observations, found = data[key][chosen]
+            seen.append(observations)
+            labels.append(found)
+            keys += [key] * len(chosen)
+    choice, termination = torch.cat(labels).to(DEVICE).unbind(1)
+    subgoal = torch.tensor([UNLABELED if key.subgoal is None else key.subgoal for key in keys]).to(DEVICE)
+    unlabeled = torch.full_like(choice, UNLABELED)
+    of_pi, of_mu = subgoal != UNLABELED, torch.tensor([key == META for key in keys]).to(DEVICE)
+    acted = choice != UNLABELED
+    return _Batch(
+        torch.cat(seen),
+        hi=torch.where(of_mu, choice, torch.where(of_pi & acted, subgoal, unlabeled)),
+        subgoal=subgoal.clamp(min=0),
+        action=torch.where(of_pi, choice, unlabeled),
+        termination=termination,
+        flat=torch.where(of_mu, unlabeled, choice),
+    )

@@ -1,0 +1,206 @@
+"""One network for all policies: it finds the agent and its moves, and learns every policy from given labels."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+from numpy.typing import NDArray
+
+from waypost.trajectory import Observation, Segment, Trajectory
+from waypost_learner.algorithms.learner import Learner
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.maze import MOVES, Maze
+from waypost_learner.policies.fields.agent_finder import AgentFinder
+from waypost_learner.policies.fields.field_net import FieldNet, FieldSpec
+from waypost_learner.policies.labels import Labels
+from waypost_learner.policies.levels import HIERARCHY, Levels
+from waypost_learner.presets import find_preset
+from waypost_learner.presets.base import Preset
+from waypost_learner.rollout.policy_keys import FLAT, META, pi
+from waypost_learner.rollout.simulator import Simulator
+from waypost_learner.runs import checkpoints
+from waypost_learner.runs.config import Progress, TrainConfig
+from waypost_learner.runs.setup import set_up
+
+maze = MazeDomain()
+TRAIN = maze.instances("random").train
+
+
+def demonstrated(instance: Maze) -> Trajectory:
+    """The oracle's demonstration of a maze."""
+    simulator, oracle, view = Simulator(maze), maze.oracle, instance.to_json()
+    state, sigma = simulator.reset(instance), list[Segment]()
+    while not simulator.ended:
+        subgoal = oracle.good_subgoals(view, state.view)[0]
+        states, actions = [state], list[int]()
+        while not oracle.reached(view, state.view, states[-1].view, subgoal):
+            actions.append(oracle.good_actions(view, state.view, states[-1].view, subgoal)[0])
+            states.append(simulator.step(actions[-1]))
+        sigma.append(Segment(subgoal, tuple(states), tuple(actions), True, final=simulator.final))
+        state = states[-1]
+    return tuple(sigma)
+
+
+def taught(preset: Preset, n: int, first: int = 0, levels: Levels = HIERARCHY, seed: int = 0) -> Learner:
+    learner = Learner(maze, preset, seed, levels, threads=1)
+    teach(learner, n, first)
+    return learner
+
+
+def teach(learner: Learner, n: int, first: int = 0) -> None:
+    for instance in TRAIN[first : first + n]:
+        labels = Labels()
+        if learner.levels.flat:
+            path = demonstrated(instance)
+            labels.append_flat(path, [action for segment in path for action in segment.actions])
+        else:
+            labels.append_demonstration(demonstrated(instance))
+        learner.learn(labels)
+        learner.train_idle()
+
+
+def briefly(updates: int, **values: Any) -> Preset:
+    preset = find_preset("general").with_values(**values)
+    batch = preset.training.train_shared.batch
+    rows = replace(preset.training.train_shared, least=1, most=1, idle=updates * batch)
+    return preset.with_values(train_shared=rows)
+
+
+@cache
+def learned() -> Learner:
+    return taught(briefly(50), 4)
+
+
+def seen(n: int = 6, first: int = 500) -> tuple[Observation, NDArray[np.int64]]:
+    """Observations of mazes that nobody taught, and the agent's cells."""
+    states = [state for instance in TRAIN[first : first + n] for one in demonstrated(instance) for state in one.states]
+    return np.stack([state.observation for state in states]), np.array([state.view for state in states])
+
+
+@pytest.mark.parametrize("symmetries", [True, False])
+def test_it_finds_the_agent_from_demonstrated_actions(symmetries: bool) -> None:
+    learner = taught(briefly(0, symmetries=symmetries), 4)
+    assert learner.shared is not None
+    network = learner.shared.acting
+    assert isinstance(network, FieldNet)
+    pictures, cells = seen()
+    np.testing.assert_array_equal(network.finder.find(torch.from_numpy(pictures)), cells)
+    moved = np.zeros((4, 9))
+    moved[range(4), [3 * row + column + 4 for row, column in MOVES]] = 1
+    np.testing.assert_allclose(network.displacements, moved, atol=0.05)
+
+
+def test_an_action_that_nobody_showed_may_move_the_agent_anywhere() -> None:
+    finder = AgentFinder(3, 4)
+    pictures = torch.from_numpy(seen(1)[0])
+    shares = finder.displacements((pictures, torch.zeros(len(pictures), dtype=torch.int64), pictures))
+    np.testing.assert_allclose(shares[1:], 1 / 9)
+    np.testing.assert_allclose(shares[0], np.eye(9)[4], atol=0.01)
+
+
+def test_it_learns_every_policy_from_four_demonstrations() -> None:
+    learner = learned()
+    right = dict.fromkeys(("hi", "lo", "ends"), 0.0)
+    steps, segments = 0, 0
+    for instance in TRAIN[500:520]:
+        view = instance.to_json()
+        for segment in demonstrated(instance):
+            assert segment.subgoal is not None
+            observations = np.stack([state.observation for state in segment.states])
+            chosen = learner.policies[META](observations[:1]).logits.argmax()
+            right["hi"] += chosen in maze.oracle.good_subgoals(view, segment.start.view)
+            out = learner.policies[pi(segment.subgoal)](observations)
+            for state, logits in zip(segment.states[:-1], out.logits, strict=False):
+                good = maze.oracle.good_actions(view, segment.start.view, state.view, segment.subgoal)
+                right["lo"] += logits.argmax() in good
+            right["ends"] += out.termination[-1] > 0.5 and (out.termination[1:-1] < 0.5).all()
+            steps, segments = steps + len(segment.actions), segments + 1
+    assert right["hi"] / segments > 0.6  # one of five
+    assert right["lo"] / steps > 0.7  # one of four
+    assert right["ends"] / segments > 0.8
+
+
+def test_a_flat_policy_learns_with_the_same_network() -> None:
+    learner = taught(briefly(50), 4, levels=Levels(flat=True))
+    assert isinstance(learner.learned[FLAT].network, FieldNet)
+    good, steps = 0, 0
+    for instance in TRAIN[500:520]:
+        for segment in demonstrated(instance):
+            logits = learner.policies[FLAT](np.stack([state.observation for state in segment.states[:-1]])).logits
+            good += int((logits.argmax(1) == np.array(segment.actions)).sum())
+            steps += len(segment.actions)
+    assert good / steps > 0.5  # one of four; often two actions are right, and one was shown
+
+
+def test_only_what_was_observed_reaches_the_network() -> None:
+    """Nothing of the domain's structure is used: a domain that declares none teaches the same weights."""
+
+    class Bare:
+        name, subgoals, actions = maze.name, maze.subgoals, maze.actions
+        horizons, observation_shape, make_env, oracle = (
+            maze.horizons,
+            maze.observation_shape,
+            maze.make_env,
+            maze.oracle,
+        )
+        instances, state_view, instance_view = maze.instances, maze.state_view, maze.instance_view
+
+    told = taught(briefly(2, symmetries=False), 2)
+    bare = Learner(Bare(), briefly(2, symmetries=False), 0, threads=1)  # type: ignore[arg-type]  # it needs no more
+    teach(bare, 2)
+    assert checkpoints.weights_hash(bare) == checkpoints.weights_hash(told)
+
+
+def test_training_goes_on_from_a_checkpoint_while_it_still_looks_for_the_agent(tmp_path: Path) -> None:
+    header = checkpoints.Header("a-run", TrainConfig("hg-dagger", preset="general"), Progress(1))
+    checkpoints.write(tmp_path / "one", taught(briefly(2), 1), header, weights_only=False)
+    resumed = Learner(maze, briefly(2), seed=99, threads=1)
+    checkpoints.load(tmp_path / "one", resumed)
+    teach(resumed, 2, first=1)
+    assert checkpoints.weights_hash(resumed) == checkpoints.weights_hash(taught(briefly(2), 3))
+
+
+@pytest.mark.parametrize(("algorithm", "domain"), [("hg-dagger-q", "maze"), ("hg-dagger", "corridor")])
+def test_policies_that_cannot_share_a_network_have_their_own_and_the_run_says_so(algorithm: str, domain: str) -> None:
+    setup = set_up(TrainConfig(algorithm, domain=domain, preset="general"), threads=1)
+    assert setup.learner.shared is None
+    assert "its own network" in setup.missing["fields"]
+    assert "fields" not in set_up(TrainConfig("hg-dagger", preset="general"), threads=1).missing
+
+
+def refused(values: str, algorithm: str = "hg-dagger", preset: str = "general") -> Callable[[], object]:
+    return lambda: set_up(TrainConfig(algorithm, preset=preset, values=values), threads=1)
+
+
+@pytest.mark.parametrize(
+    "values", ["train_hi.batch=16", "train_lo.batch=16", "network.hidden=8", "centered=true", "views=true", "crop=true"]
+)
+def test_values_of_networks_of_their_own_are_refused(values: str) -> None:
+    with pytest.raises(ValueError, match=r"has no effect: .*fields"):
+        refused(values)()
+
+
+def test_values_of_the_shared_network_are_refused_where_there_is_none() -> None:
+    with pytest.raises(ValueError, match="share no network"):
+        refused("train_shared.batch=16", preset="lean")()
+    with pytest.raises(ValueError, match="Q-function"):
+        refused("fields.far=8", "hg-dagger-q")()
+
+
+def test_a_shared_network_needs_an_average_of_its_weights() -> None:
+    with pytest.raises(ValueError, match="averaging"):
+        refused("train_shared.averaging=null")()
+
+
+def test_fields_stay_finite_over_many_steps() -> None:
+    network = FieldNet(3, 5, 4, FieldSpec(far=300), torch.Generator().manual_seed(0))
+    with torch.no_grad():
+        for gate in (-50.0, 50.0):  # all open, all shut
+            network.gates[2].bias.fill_(gate)
+            out = network(torch.from_numpy(seen(1)[0]))
+            assert all(bool(torch.isfinite(one).all()) for one in out.values())
