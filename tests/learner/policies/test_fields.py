@@ -15,6 +15,7 @@ from waypost.trajectory import Observation, Segment, Trajectory
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.maze import MOVES, Maze
+from waypost_learner.policies.fields import agent_finder
 from waypost_learner.policies.fields.agent_finder import AgentFinder
 from waypost_learner.policies.fields.field_net import FieldNet, FieldSpec
 from waypost_learner.policies.labels import Labels
@@ -156,13 +157,30 @@ def test_only_what_was_observed_reaches_the_network() -> None:
     assert checkpoints.weights_hash(bare) == checkpoints.weights_hash(told)
 
 
-def test_training_goes_on_from_a_checkpoint_while_it_still_looks_for_the_agent(tmp_path: Path) -> None:
+@pytest.mark.parametrize("enough", [0.9, 2.0])  # the agent is found at once; it is looked for to the end
+def test_training_goes_on_from_a_checkpoint_whether_or_not_the_agent_is_found(
+    tmp_path: Path, enough: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(agent_finder, "_ENOUGH", enough)
+    monkeypatch.setattr(agent_finder, "_TRIES", 2)
     header = checkpoints.Header("a-run", TrainConfig("hg-dagger", preset="general"), Progress(1))
     checkpoints.write(tmp_path / "one", taught(briefly(2), 1), header, weights_only=False)
     resumed = Learner(maze, briefly(2), seed=99, threads=1)
     checkpoints.load(tmp_path / "one", resumed)
     teach(resumed, 2, first=1)
     assert checkpoints.weights_hash(resumed) == checkpoints.weights_hash(taught(briefly(2), 3))
+
+
+def test_gradients_that_are_left_from_looking_for_the_agent_change_no_training() -> None:
+    learners = [taught(briefly(2), 1) for _ in range(2)]
+    for learner, left in zip(learners, (0.0, 1e3), strict=True):
+        assert learner.shared is not None
+        for one in learner.shared.network.finder.parameters():
+            one.grad = torch.full_like(one, left)
+        learner.train_idle()  # nothing is due
+        learner.due = [META]
+        learner.train_idle()
+    assert checkpoints.weights_hash(learners[0]) == checkpoints.weights_hash(learners[1])
 
 
 @pytest.mark.parametrize(("algorithm", "domain"), [("hg-dagger-q", "maze"), ("hg-dagger", "corridor")])

@@ -13,6 +13,7 @@ _UPDATES, _BATCH, _LEARNING_RATE = 200, 64, 3e-2
 _PEAKED = 0.1
 _TRIES = 20  # from other initial weights, if ...
 _ENOUGH = 0.98  # ... the pixel with the most attention tells less than this share of the actions
+_ALL = 0.999  # with this share, nothing is fitted again
 
 Transitions = tuple[torch.Tensor, torch.Tensor, torch.Tensor]
 """Pictures float32[N, C, rows, columns], the actions taken in them int64[N], the pictures after them."""
@@ -44,9 +45,9 @@ class AgentFinder(nn.Module):
         return torch.stack([best // x.shape[3], best % x.shape[3]], 1)
 
     def fit(self, transitions: Transitions, rng: torch.Generator) -> None:
-        """Fit the attention to transitions, from new weights, unless it tells their actions already."""
+        """Fit the attention to transitions, from new weights, unless it tells all their actions already."""
         best, found = self._told(transitions), {name: tensor.clone() for name, tensor in self.state_dict().items()}
-        for _ in range(_TRIES if best < _ENOUGH else 0):
+        for _ in range(_TRIES if best < _ALL else 0):
             self._fit_once(transitions, rng)
             told = self._told(transitions)
             if told > best:

@@ -66,8 +66,9 @@ class SharedPolicy:
         self.spec = train
         self.rng = torch.Generator().manual_seed(seed)
         self.network = FieldNet(observation_shape[0], n_subgoals, n_actions, network, self.rng).to(DEVICE).eval()
+        self._trained = [one for one in self.network.parameters() if one.requires_grad]  # not those that find the agent
         self.optimizer = torch.optim.AdamW(
-            [one for one in self.network.parameters() if one.requires_grad],
+            self._trained,
             lr=train.learning_rate,
             weight_decay=train.weight_decay,
             fused=True,
@@ -124,7 +125,7 @@ class SharedPolicy:
             loss = self._loss(self.network(to_device(batch.observations)), batch)
             self.optimizer.zero_grad()
             torch.autograd.backward(loss)
-            nn.utils.clip_grad_norm_(self.network.parameters(), _CLIP)
+            nn.utils.clip_grad_norm_(self._trained, _CLIP)
             self.optimizer.step()
             self.average.update_parameters(self.network)
         self.network.eval()
