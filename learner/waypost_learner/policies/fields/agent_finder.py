@@ -13,6 +13,7 @@ _UPDATES, _BATCH, _LEARNING_RATE = 200, 64, 3e-2
 _PEAKED = 0.1
 _TRIES = 20  # from other initial weights, if ...
 _ENOUGH = 0.98  # ... the pixel with the most attention tells less than this share of the actions
+_RARE = 0.1  # moves to a pixel that are rarer are taken for mistakes of the attention
 _ALL = 0.999  # with this share, nothing is fitted again
 
 Transitions = tuple[torch.Tensor, torch.Tensor, torch.Tensor]
@@ -60,12 +61,14 @@ class AgentFinder(nn.Module):
         """Return how often each action moved the agent to each pixel around it, as shares float32[actions, 9].
 
         The nine pixels are those of a square with the agent in the middle, row by row. Longer moves count as moves to
-        its border. An action that was never taken moves to each with the same share.
+        its border. Shares below a tenth count as 0. An action that was never taken moves to each with the same share.
         """
         actions, pixels = transitions[1], self._pixels(transitions)
         every = range(self.action.out_features)
         counts = torch.stack([torch.bincount(pixels[actions == one], minlength=9) for one in every]) + 1e-3
-        return counts / counts.sum(1, keepdim=True)
+        shares = counts / counts.sum(1, keepdim=True)
+        shares[shares < _RARE] = 0
+        return shares / shares.sum(1, keepdim=True)
 
     def _fit_once(self, transitions: Transitions, rng: torch.Generator) -> None:
         for layer in (self.features, self.attention, self.action):
