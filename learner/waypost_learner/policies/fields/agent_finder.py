@@ -105,7 +105,7 @@ class AgentFinder(nn.Module):
 def _place(attention: torch.Tensor) -> torch.Tensor:
     """Return the mean row and column under attention logits float32[B, rows, columns], float32[B, 2]."""
     shares = torch.softmax(attention.flatten(1), 1).view_as(attention)
-    rows, columns = (torch.arange(size, dtype=shares.dtype) for size in shares.shape[1:])
+    rows, columns = (torch.arange(size, dtype=shares.dtype, device=shares.device) for size in shares.shape[1:])
     return torch.stack([shares.sum(2) @ rows, shares.sum(1) @ columns], 1)
 
 

@@ -132,7 +132,7 @@ class FieldNet(nn.Module):
 def _around(x: torch.Tensor, agent: torch.Tensor, reach: int) -> torch.Tensor:
     """Return the pixels [B, C, side, side] around the agent's int64[B, 2] row and column; 0 outside the picture."""
     padded = functional.pad(x, (reach, reach, reach, reach)).permute(0, 2, 3, 1)
-    span = torch.arange(2 * reach + 1)
+    span = torch.arange(2 * reach + 1, device=x.device)
     rows, columns = (agent[:, one, None] + span for one in (0, 1))
-    every = torch.arange(len(x))[:, None, None]
+    every = torch.arange(len(x), device=x.device)[:, None, None]
     return padded[every, rows[:, :, None], columns[:, None, :]].permute(0, 3, 1, 2)

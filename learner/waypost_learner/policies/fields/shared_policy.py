@@ -95,7 +95,7 @@ class SharedPolicy:
         if not transitions or len(self.transitions) >= _TRANSITIONS:
             return
         self.transitions.append(transitions)
-        pictures, labels = self.transitions[range(len(self.transitions))]
+        pictures, labels = (one.to(DEVICE) for one in self.transitions[range(len(self.transitions))])
         self.network.find_agent((pictures[:, 0], labels[:, 0], pictures[:, 1]), self.rng)
         acting = self.acting
         assert isinstance(acting, FieldNet)
@@ -135,7 +135,7 @@ class SharedPolicy:
 
     def _loss(self, out: dict[str, torch.Tensor], batch: _Batch) -> torch.Tensor:
         """Return the sum of the mean cross-entropies over the rows that have a label of each kind."""
-        every = torch.arange(len(batch.hi))
+        every = torch.arange(len(batch.hi), device=batch.hi.device)
         ending = out["termination"][every, batch.subgoal]
         labeled = (batch.termination != UNLABELED).float()
         terminations = functional.binary_cross_entropy_with_logits(
