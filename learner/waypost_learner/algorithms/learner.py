@@ -237,26 +237,19 @@ class Learner:
             self.shared.see(list(self._transitions_of(labels)))
         grown = {self.views[key].owner for key, data in self.data.items() if len(data) > sizes[key]}
         self.due = [key for key, policy in self.imitators.items() if policy.spec.every_episode or key in grown]
-        list(self._threads.map(self._train, self.due))
+        list(self._threads.map(partial(self._train, idle=False), self.due))
 
     def train_idle(self) -> None:
         """Train the policies that the last `learn` trained again, each on the `idle` rows of its specification."""
-        list(self._threads.map(self._train_idle, self.due))
+        list(self._threads.map(partial(self._train, idle=True), self.due))
         self.due = []
 
-    def _train(self, key: PolicyKey) -> None:
+    def _train(self, key: PolicyKey, idle: bool) -> None:
         policy = self.imitators[key]
         if isinstance(policy, SharedPolicy):
-            policy.train(self.data)
+            (policy.train_idle if idle else policy.train)(self.data)
         else:
-            policy.train(self.data[key])
-
-    def _train_idle(self, key: PolicyKey) -> None:
-        policy = self.imitators[key]
-        if isinstance(policy, SharedPolicy):
-            policy.train_idle(self.data)
-        else:
-            policy.train_idle(self.data[key])
+            (policy.train_idle if idle else policy.train)(self.data[key])
 
     def _transitions_of(self, labels: Labels) -> Iterator[Row]:
         """Yield the observations before and after each action of demonstrations and of a flat policy's rollouts."""

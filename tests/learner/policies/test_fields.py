@@ -211,6 +211,17 @@ def test_values_of_the_shared_network_are_refused_where_there_is_none() -> None:
         refused("fields.far=8", "hg-dagger-q")()
 
 
+@pytest.mark.parametrize("values", ["fields.reach=0", "fields.ending=0", "fields.gain=0.0"])
+def test_sizes_out_of_their_range_are_refused(values: str) -> None:
+    with pytest.raises(ValueError, match="fields need far, near, reach"):
+        refused(values)()
+
+
+def test_steps_that_could_grow_beyond_all_numbers_are_refused() -> None:
+    with pytest.raises(ValueError, match="smaller far, near or gain"):
+        refused("fields.far=1000")()
+
+
 def test_a_shared_network_needs_an_average_of_its_weights() -> None:
     with pytest.raises(ValueError, match="averaging"):
         refused("train_shared.averaging=null")()

@@ -4,6 +4,7 @@ It finds the agent (`AgentFinder`), sees where its actions move it, and learns w
 task ends, and where each subgoal ends near the agent. All of it comes from the expert's labels.
 """
 
+import math
 from dataclasses import dataclass
 
 import torch
@@ -11,6 +12,8 @@ from torch import nn
 from torch.nn import functional
 
 from waypost_learner.policies.fields.agent_finder import AgentFinder, Transitions
+
+_LARGEST = 600.0  # the logarithm of about the largest number of float64
 
 
 @dataclass(frozen=True)
@@ -23,7 +26,20 @@ class FieldSpec:
     ending: int = 3  # pixels from the agent that beta_g sees, in each direction
     features: int = 32  # of a pixel, for the ends of subgoals
     hidden: int = 64  # units of beta_g
-    gain: float = 2.8  # the sum of a spreading step's weights; gates are below 1, so that fields stay finite
+    gain: float = 2.8  # the sum of a spreading step's weights
+
+    def __post_init__(self) -> None:
+        """Refuse numbers out of their range.
+
+        Raises:
+            ValueError: a number is out of its range, or fields could grow beyond float64; the message says which.
+        """
+        if min(self.far, self.near, self.reach, self.ending, self.features, self.hidden) < 1 or self.gain <= 0:
+            raise ValueError(
+                "fields need far, near, reach, ending, features and hidden of at least 1, and gain above 0"
+            )
+        if max(self.far, self.near) * math.log(self.gain) > _LARGEST:
+            raise ValueError("fields could grow beyond all numbers: choose a smaller far, near or gain")
 
 
 _GATE_FEATURES = 16
@@ -78,7 +94,7 @@ class FieldNet(nn.Module):
             if isinstance(layer, nn.Conv2d | nn.Linear):
                 nn.init.xavier_uniform_(layer.weight, generator=rng)
                 nn.init.zeros_(layer.bias)  # type: ignore[arg-type]  # all layers have biases
-        nn.init.constant_(self.near[2].bias, _FAINT)  # type: ignore[arg-type]
+        nn.init.constant_(self.near[2].bias, _FAINT)  # type: ignore[arg-type]  # a list of modules has no layer types
 
     def find_agent(self, transitions: Transitions, rng: torch.Generator) -> None:
         """Learn to find the agent, and where each action moves it, from transitions."""

@@ -50,6 +50,9 @@ class SharedPolicy:
         network: the sizes of the network.
         train: the learning parameters of Train; `averaging` is needed.
         seed: fixes initial weights and the order of rows.
+
+    Raises:
+        ValueError: `train` has no averaging.
     """
 
     def __init__(
