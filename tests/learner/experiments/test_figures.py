@@ -232,6 +232,15 @@ def room(seed: int, reached: float) -> RunCurves:
     return replace(run_of(config, [False] * n), reward=np.arange(n, dtype=float), reached=learned)
 
 
+def test_a_run_that_never_got_a_reward_has_one_tick_of_it() -> None:
+    group = plan.GROUPS["montezuma-hybrid"]
+    run = replace(room(0, 0.9), reward=np.zeros(4))
+    figure = draw.reward_by_sample(Comparison(group, {group.series[0]: [run]}))
+    figure.canvas.draw()
+    low, high = figure.axes[0].get_ylim()
+    assert [tick for tick in figure.axes[0].get_yticks() if low <= tick <= high] == [0]
+
+
 def test_the_csv_keeps_rewards_and_attempts_beside_runs_that_have_none() -> None:
     imitating = run_of(corridor(), [True, False])
     archive.write(Path(), [imitating, room(0, 0.95)])

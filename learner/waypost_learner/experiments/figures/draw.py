@@ -140,6 +140,8 @@ def reward_by_sample(comparison: Comparison) -> Figure:
     for series, runs in comparison.runs.items():
         curve(axes, [Track(run.lo_samples, run.reward, run.complete) for run in runs], look.style_of(series))
     count_axis(axes.yaxis, "Mean reward (trailing 100 rollouts)")
+    # Otherwise a reward that is always 0 has several ticks that say 0.
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     count_axis(axes.xaxis, "LO samples")
     _close(figure, comparison, _LINES)
     return figure
