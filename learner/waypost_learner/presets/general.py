@@ -23,7 +23,7 @@ GENERAL = replace(
             64,
             least=8 * 64,
             most=8 * 64,
-            idle=60 * 64,
+            idle=120 * 64,
             dropout=0.0,
             weight_decay=0.01,
             averaging=0.99,

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import torch
 from numpy.typing import NDArray
+from torch.nn import functional
 
 from waypost.trajectory import Observation, Segment, Trajectory
 from waypost_learner.algorithms.learner import Learner
@@ -18,6 +19,7 @@ from waypost_learner.domains.maze.maze import MOVES, Maze
 from waypost_learner.policies.fields import agent_finder
 from waypost_learner.policies.fields.agent_finder import AgentFinder
 from waypost_learner.policies.fields.field_net import FieldNet, FieldSpec
+from waypost_learner.policies.fields.spreading import spread
 from waypost_learner.policies.labels import Labels
 from waypost_learner.policies.levels import HIERARCHY, Levels
 from waypost_learner.presets import find_preset
@@ -219,7 +221,7 @@ def test_sizes_out_of_their_range_are_refused(values: str) -> None:
 
 def test_steps_that_could_grow_beyond_all_numbers_are_refused() -> None:
     with pytest.raises(ValueError, match="smaller far, near or gain"):
-        refused("fields.far=1000")()
+        refused("fields.far=2000")()
 
 
 def test_a_shared_network_needs_an_average_of_its_weights() -> None:
@@ -234,3 +236,19 @@ def test_fields_stay_finite_over_many_steps() -> None:
             network.gates[2].bias.fill_(gate)
             out = network(torch.from_numpy(seen(1)[0]))
             assert all(bool(torch.isfinite(one).all()) for one in out.values())
+
+
+def test_fields_and_their_gradients_are_those_of_repeated_convolutions() -> None:
+    rng = torch.Generator().manual_seed(0)
+    gates, source = (torch.rand(3, 6, 5, dtype=torch.float64, generator=rng).requires_grad_() for _ in range(2))
+    weights = torch.rand(9, dtype=torch.float64, generator=rng)
+    weights[4] = 0  # nothing comes from the pixel itself
+    field = source
+    for _ in range(7):
+        moved = functional.conv2d(field.unsqueeze(1), weights.view(1, 1, 3, 3), padding=1).squeeze(1)
+        field = gates * moved + source
+    ours = spread(gates, source, weights, 7)
+    torch.testing.assert_close(ours, field)
+    some = torch.rand(3, 6, 5, dtype=torch.float64, generator=rng)
+    wanted = torch.autograd.grad((some * field).sum(), (gates, source))
+    torch.testing.assert_close(torch.autograd.grad((some * ours).sum(), (gates, source)), wanted)

@@ -12,6 +12,7 @@ from torch import nn
 from torch.nn import functional
 
 from waypost_learner.policies.fields.agent_finder import AgentFinder, Transitions
+from waypost_learner.policies.fields.spreading import spread
 
 _LARGEST = 600.0  # the logarithm of about the largest number of float64
 
@@ -26,7 +27,7 @@ class FieldSpec:
     ending: int = 3  # pixels from the agent that beta_g sees, in each direction
     features: int = 32  # of a pixel, for the ends of subgoals
     hidden: int = 64  # units of beta_g
-    gain: float = 2.8  # the sum of a spreading step's weights
+    gain: float = 1.8  # the sum of a spreading step's weights
 
     def __post_init__(self) -> None:
         """Refuse numbers out of their range.
@@ -43,7 +44,10 @@ class FieldSpec:
 
 
 _GATE_FEATURES = 16
-_SHARPNESS = 5.0  # of the attention to the pixels where the task ends
+# The farther a field must reach, the closer to 0 must be the gates of what cannot be passed, and the attention where
+# the task does not end. With large multiples of what is learned, few updates make both that small.
+_SHARP_GATES, _SHARP_SOURCE = 6.0, 15.0
+_OPEN = -1 / 3  # the first output of the gates, before its multiple: at first almost everything can be passed
 _FAINT = -3.0  # the first logit of a subgoal's ends
 _LEAST = 1e-300  # about the smallest number whose logarithm float64 can tell
 
@@ -51,10 +55,10 @@ _LEAST = 1e-300  # about the smallest number whose logarithm float64 can tell
 class FieldNet(nn.Module):
     """One network for mu, all pi_g with beta_g, and a flat policy.
 
-    A field h spreads from a source e through gates p between 0 and 1: h <- p * (W @ h) + e, where W moves to the
-    neighboring pixels to which actions move the agent. It is a soft value iteration (Tamar et al. 2016) in exp(V). The
-    task's field spreads from where the task ends, a subgoal's field from where the subgoal ends. pi_g climbs the
-    subgoal's field. For mu, each end of a subgoal counts as much as the task's field there.
+    A field h spreads from a source e through gates p between 0 and 1: h <- p * (W @ h) + e. W adds the neighboring
+    pixels to which actions move the agent, each action with the same weight. It is a soft value iteration (Tamar et al.
+    2016) in exp(V). The task's field spreads from where the task ends, a subgoal's field from where the subgoal ends.
+    pi_g climbs the subgoal's field. For mu, each end of a subgoal counts as much as the task's field there.
 
     Args:
         channels: of the pictures.
@@ -69,10 +73,8 @@ class FieldNet(nn.Module):
         self.spec, self.n_actions = spec, n_actions
         self.finder = AgentFinder(channels, n_actions).requires_grad_(False)
         self.register_buffer("displacements", torch.full((n_actions, 9), 1 / 9))
-        self.move_weights = nn.Parameter(torch.zeros(n_actions))
-        self.gates = nn.Sequential(
-            nn.Conv2d(channels, _GATE_FEATURES, 3, padding=1), nn.ReLU(), nn.Conv2d(_GATE_FEATURES, 1, 1)
-        )
+        gate = nn.Conv2d(_GATE_FEATURES, 1, 1)
+        self.gates = nn.Sequential(nn.Conv2d(channels, _GATE_FEATURES, 1), nn.ReLU(), gate)
         self.source = nn.Conv2d(channels, 1, 1)
         self.near = nn.ModuleList(
             [
@@ -94,6 +96,9 @@ class FieldNet(nn.Module):
             if isinstance(layer, nn.Conv2d | nn.Linear):
                 nn.init.xavier_uniform_(layer.weight, generator=rng)
                 nn.init.zeros_(layer.bias)  # type: ignore[arg-type]  # all layers have biases
+        for same in (gate, self.source):  # at first, all pixels have the same gate and the same share of the attention
+            nn.init.zeros_(same.weight)
+        nn.init.constant_(gate.bias, _OPEN)  # type: ignore[arg-type]  # it has one
         nn.init.constant_(self.near[2].bias, _FAINT)  # type: ignore[arg-type]  # a list of modules has no layer types
 
     def find_agent(self, transitions: Transitions, rng: torch.Generator) -> None:
@@ -109,8 +114,8 @@ class FieldNet(nn.Module):
         `termination` float32[B, subgoals]: logits of each beta_g. `flat` float32[B, actions]: logits of a flat policy.
         """
         spec, agent = self.spec, self.finder.find(x)
-        gates = torch.sigmoid(-self.gates(x)).double()
-        source = torch.softmax(_SHARPNESS * self.source(x).flatten(1), 1).view_as(gates).double()
+        gates = torch.sigmoid(-_SHARP_GATES * self.gates(x)).double()
+        source = torch.softmax(_SHARP_SOURCE * self.source(x).flatten(1), 1).view_as(gates).double()
         task = self._spread(gates, source, spec.far)
         patch, near_gates, near_task = (_around(one, agent, spec.reach) for one in (x, gates, task))
         ends = near_gates * torch.sigmoid(self._ends(patch)).double()  # a subgoal ends only where one can pass
@@ -132,13 +137,8 @@ class FieldNet(nn.Module):
 
     def _spread(self, gates: torch.Tensor, source: torch.Tensor, steps: int) -> torch.Tensor:
         """Spread fields float64[B, K, rows, columns]."""
-        weights = self.spec.gain * torch.softmax(self.move_weights, 0) @ self.displacements
-        kernel = weights.double().view(1, 1, 3, 3)
-        one_each = [one.flatten(0, 1).unsqueeze(1) for one in (gates, source)]  # one kernel serves all K fields
-        field = one_each[1]
-        for _ in range(steps):
-            field = torch.addcmul(one_each[1], one_each[0], functional.conv2d(field, kernel, padding=1))
-        return field.view_as(source)
+        weights = self.spec.gain * self.displacements.mean(0)
+        return spread(gates.flatten(0, 1), source.flatten(0, 1), weights, steps).view_as(source)
 
     def _climb(self, around: torch.Tensor) -> torch.Tensor:
         """Return the logits of actions float32[B, K, actions], given fields float64[B, K, 3, 3] around the agent."""
