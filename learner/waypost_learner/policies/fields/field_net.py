@@ -98,7 +98,7 @@ class FieldNet(nn.Module):
                 nn.init.zeros_(layer.bias)  # type: ignore[arg-type]  # all layers have biases
         for same in (gate, self.source):  # at first, all pixels have the same gate and the same share of the attention
             nn.init.zeros_(same.weight)
-        nn.init.constant_(gate.bias, _OPEN)  # type: ignore[arg-type]  # it has one
+        nn.init.constant_(gate.bias, _OPEN)  # type: ignore[arg-type]  # this layer has a bias
         nn.init.constant_(self.near[2].bias, _FAINT)  # type: ignore[arg-type]  # a list of modules has no layer types
 
     def find_agent(self, transitions: Transitions, rng: torch.Generator) -> None:
