@@ -48,6 +48,7 @@ class DqnSpec:
     pseudo: PseudoReward = field(default_factory=PseudoReward)
     from_success: bool = False  # whether experience is kept only from a subgoal's first success on
     stop_above: float | None = None  # no updates above this success rate of the last 100 attempts; always if None
+    relearn: bool = True  # whether updates go on when the rate has fallen again
     margin: float = 0.0  # by which a demonstrated choice should exceed the others; 0 ignores who chose
     exploration: ExplorationSpec = field(default_factory=ExplorationSpec)  # of subgoals
     symmetries: bool = True  # whether each transition is also learned in every symmetry of the domain
@@ -89,6 +90,7 @@ class QFunction:
         self.steps = self.updates = 0
         self.attempts: deque[bool] = deque(maxlen=ATTEMPTS)  # whether the last attempts reached the subgoal
         self.succeeded = False  # whether any attempt did
+        self.mastered = False  # whether the last attempts succeeded so often that there are no more updates
         self.uses_bf16 = spec.bf16 and has_bf16()
 
     @torch.inference_mode()
@@ -115,19 +117,15 @@ class QFunction:
         """The share of its last attempts, at most 100, that succeeded; 0 without attempts."""
         return sum(self.attempts) / max(1, len(self.attempts))
 
-    @property
-    def mastered(self) -> bool:
-        """Whether the last 100 attempts succeeded so often that there are no more updates."""
-        if self.spec.stop_above is None or len(self.attempts) < ATTEMPTS:
-            return False
-        return self.success > self.spec.stop_above
-
     def attempt(self, experience: Experience) -> None:
         """Count an attempt at the subgoal. What others chose too is no attempt, but it can be a success."""
         if experience.outcome is not None:
             self.succeeded = self.succeeded or experience.outcome == "reached"
             if experience.alone:
                 self.attempts.append(experience.outcome == "reached")
+                if self.spec.stop_above is not None and len(self.attempts) == ATTEMPTS:
+                    kept = self.mastered and not self.spec.relearn
+                    self.mastered = kept or self.success > self.spec.stop_above
 
     def remember(self, experience: Experience) -> None:
         """Append experience to the replay buffer."""

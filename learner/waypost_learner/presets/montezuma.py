@@ -73,6 +73,7 @@ PAPER = Preset(
             pseudo=PseudoReward(reached=1.0, failed=-1.0, step=0.0),
             from_success=True,
             stop_above=0.9,
+            relearn=False,
             symmetries=False,
             bf16=False,  # a step more costs 1 % of a value (the discount), which bf16 hardly resolves
         ),

@@ -7,8 +7,8 @@ Tensors, where KEY is a policy's number (`PolicyKey.number`):
 - `due`: the policies that train while the expert answers the next query.
 - `transitions.*`: what the policies that share a network learned from where the agent is.
 - `trained.KEY.NAME`, `averaged.KEY`: if an average of the weights acts, the trained weights and the number of updates.
-- `target.KEY.NAME`, `counts.KEY`, `attempts.KEY`: a Q-function's target network; its steps, its updates and whether
-  any attempt succeeded; its last attempts.
+- `target.KEY.NAME`, `counts.KEY`, `attempts.KEY`: a Q-function's target network; its steps, its updates, whether
+  any attempt succeeded and whether it is mastered; its last attempts.
 - `exploration.KEY`: what the exploration of a subgoal knows, as JSON.
 
 The file's metadata holds the `Header` as JSON. No code is stored, so loading a file runs none.
@@ -123,8 +123,8 @@ def _restore(tensors: Tensors, learner: Learner) -> None:
         if f"rng.{n}" in tensors:
             q.target.load_state_dict(_below(tensors, f"target.{n}."))
             q.replay.load(_below(tensors, f"data.{n}."))
-            q.steps, q.updates, succeeded = tensors[f"counts.{n}"].tolist()
-            q.succeeded = bool(succeeded)
+            q.steps, q.updates, succeeded, mastered = tensors[f"counts.{n}"].tolist()
+            q.succeeded, q.mastered = bool(succeeded), bool(mastered)
             q.attempts.extend(tensors[f"attempts.{n}"].tolist())
     for key, exploration in learner.explorations.items():
         if f"exploration.{key.number}" in tensors:
@@ -164,7 +164,7 @@ def _training_state(learner: Learner) -> Tensors:
     for key, q in learner.q.items():
         tensors |= {f"target.{key.number}.{name}": tensor for name, tensor in q.target.state_dict().items()}
         tensors |= {f"data.{key.number}.{name}": tensor for name, tensor in q.replay.tensors().items()}
-        tensors[f"counts.{key.number}"] = torch.tensor([q.steps, q.updates, q.succeeded])
+        tensors[f"counts.{key.number}"] = torch.tensor([q.steps, q.updates, q.succeeded, q.mastered])
         tensors[f"attempts.{key.number}"] = torch.tensor(list(q.attempts), dtype=torch.bool)
     for key, exploration in learner.explorations.items():
         known = bytearray(exploration.to_json().encode())

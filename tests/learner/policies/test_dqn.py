@@ -107,8 +107,11 @@ def test_experience_can_be_kept_only_from_the_first_success_on() -> None:
     assert sizes == [0, 0, 8, 16]
 
 
-def test_updates_and_exploration_stop_while_the_last_hundred_attempts_succeed_often_enough() -> None:
-    q = QFunction((5,), 2, NETWORK, replace(SPEC, stop_above=0.9), 0)
+@pytest.mark.parametrize(("relearn", "last"), [(True, 1), (False, 0)])
+def test_updates_and_exploration_stop_when_the_last_hundred_attempts_succeed_often_enough(
+    relearn: bool, last: int
+) -> None:
+    q = QFunction((5,), 2, NETWORK, replace(SPEC, stop_above=0.9, relearn=relearn), 0)
     q.remember(chain())
     updates, explores = [], []
     for outcome, times in (("reached", 99), ("reached", 1), ("failed", 9), ("failed", 1)):
@@ -118,8 +121,8 @@ def test_updates_and_exploration_stop_while_the_last_hundred_attempts_succeed_of
         q.step()
         updates.append(q.updates - before)
         explores.append(q.epsilon > 0)
-    assert updates == [1, 0, 0, 1]  # 91 of 100 is above 0.9, 90 of 100 is not
-    assert explores == [True, False, False, True]
+    assert updates == [1, 0, 0, last]  # 91 of 100 is above 0.9, 90 of 100 is not
+    assert explores == [True, False, False, bool(last)]
 
 
 def test_a_demonstration_is_a_success_but_no_attempt() -> None:
