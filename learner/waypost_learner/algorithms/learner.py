@@ -96,7 +96,9 @@ class Learner:
         if training.fields is None or self.levels.reinforced or len(domain.observation_shape) != 3:
             return None
         sizes = len(domain.subgoals), len(domain.actions)
-        return SharedPolicy(domain.observation_shape, *sizes, training.fields, training.train_shared, self._seed(owner))
+        symmetries = symmetries_of(domain) if self.preset.use.symmetries else None
+        shape, seed = domain.observation_shape, self._seed(owner)
+        return SharedPolicy(shape, *sizes, training.fields, training.train_shared, seed, symmetries)
 
     def _view(self, key: PolicyKey, owner: PolicyKey) -> PolicyView:
         if self.shared is not None:
@@ -230,7 +232,8 @@ class Learner:
         use = self.preset.use
         relabeling = self.domain if isinstance(self.domain, Derives) else None
         rows = rows_of(labels, relabeling if use.relabeling else None, self.preset.training.from_passed)
-        self._append_rows(rows, symmetries_of(self.domain) if use.symmetries else ())
+        several = use.symmetries and self.shared is None  # a shared network transforms rows itself
+        self._append_rows(rows, symmetries_of(self.domain) if several else ())
         if self.q:
             self._remember(list(self._experience_of(labels)))
         if self.shared is not None:

@@ -58,6 +58,11 @@ class Dataset:
         dtype = np.uint8 if len(raw) == math.prod(self._shape) else np.float32
         return np.frombuffer(raw, dtype).reshape(self._shape)
 
+    def counts(self, n_choices: int) -> torch.Tensor:
+        """Return how many rows have each choice, int64[n_choices]."""
+        choices = torch.tensor([choice for choice, _ in self._labels if choice != UNLABELED], dtype=torch.int64)
+        return torch.bincount(choices, minlength=n_choices)
+
     def append(self, rows: Iterable[Row]) -> None:
         """Append rows."""
         for row in rows:

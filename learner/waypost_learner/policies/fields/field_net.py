@@ -13,6 +13,7 @@ from torch.nn import functional
 
 from waypost_learner.policies.fields.agent_finder import AgentFinder, Transitions
 from waypost_learner.policies.fields.spreading import spread
+from waypost_learner.policies.fields.symmetry_finder import NO_SYMMETRY, TURNS
 
 _LARGEST = 600.0  # the logarithm of about the largest number of float64
 
@@ -28,6 +29,7 @@ class FieldSpec:
     features: int = 32  # of a pixel, for the ends of subgoals
     hidden: int = 64  # units of beta_g
     gain: float = 1.8  # the sum of a spreading step's weights
+    symmetries: bool = True  # whether symmetries are looked for that nobody told
 
     def __post_init__(self) -> None:
         """Refuse numbers out of their range.
@@ -73,6 +75,8 @@ class FieldNet(nn.Module):
         self.spec, self.n_actions = spec, n_actions
         self.finder = AgentFinder(channels, n_actions).requires_grad_(False)
         self.register_buffer("displacements", torch.full((n_actions, 9), 1 / 9))
+        self.symmetries: torch.Tensor
+        self.register_buffer("symmetries", torch.full((len(TURNS), n_subgoals + n_actions), NO_SYMMETRY))
         gate = nn.Conv2d(_GATE_FEATURES, 1, 1)
         self.gates = nn.Sequential(nn.Conv2d(channels, _GATE_FEATURES, 1), nn.ReLU(), gate)
         self.source = nn.Conv2d(channels, 1, 1)

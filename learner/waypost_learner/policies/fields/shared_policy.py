@@ -10,11 +10,14 @@ from torch import nn
 from torch.nn import functional
 from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 
+from waypost.domains import Symmetry
 from waypost.trajectory import Observation
 from waypost_learner.policies.datasets import UNLABELED, Dataset, Row
 from waypost_learner.policies.device import DEVICE, as_input, to_device
 from waypost_learner.policies.fields.field_net import FieldNet, FieldSpec
+from waypost_learner.policies.fields.symmetry_finder import find_symmetries, symmetries_in
 from waypost_learner.policies.imitation import TrainSpec
+from waypost_learner.policies.labels import transformed_rows
 from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
 from waypost_learner.rollout.rollout import Outputs
 
@@ -50,6 +53,8 @@ class SharedPolicy:
         network: the sizes of the network.
         train: the learning parameters of Train; `averaging` is needed.
         seed: fixes initial weights and the order of rows.
+        symmetries: of the domain, as far as the learner is told; if None, they are looked for. Each row is learned in
+            a random one at a time. What is chosen is the average over the transformed pictures, transformed back.
 
     Raises:
         ValueError: `train` has no averaging.
@@ -63,10 +68,12 @@ class SharedPolicy:
         network: FieldSpec,
         train: TrainSpec,
         seed: int,
+        symmetries: Sequence[Symmetry] | None = None,
     ) -> None:
         if train.averaging is None:
             raise ValueError("a network that spreads fields needs an averaging; write a number below 1")
-        self.spec = train
+        self.spec, self._told, self._n_subgoals = train, symmetries, n_subgoals
+        self._shape, self._n_actions = observation_shape, n_actions
         self.rng = torch.Generator().manual_seed(seed)
         self.network = FieldNet(observation_shape[0], n_subgoals, n_actions, network, self.rng).to(DEVICE).eval()
         self._trained = [one for one in self.network.parameters() if one.requires_grad]  # not those that find the agent
@@ -85,6 +92,45 @@ class SharedPolicy:
         """The network that acts: the average of its weights over the updates."""
         return self.average.module
 
+    @property
+    def symmetries(self) -> Sequence[Symmetry]:
+        """The domain's symmetries: those that the learner was told, or those that it found."""
+        if self._told is not None:
+            return self._told
+        return symmetries_in(self._acting.symmetries, self._n_subgoals)
+
+    @property
+    def _acting(self) -> FieldNet:
+        acting = self.acting
+        assert isinstance(acting, FieldNet)
+        return acting
+
+    @torch.inference_mode()
+    def outputs(self, observations: Observation) -> dict[str, torch.Tensor]:
+        """Return the outputs of `FieldNet` for observations float32 or uint8[B, C, rows, columns].
+
+        With symmetries, logarithms of probabilities, and logits of terminations, are averages over them.
+        """
+        n, symmetries = len(observations), self.symmetries
+        seen = [observations, *(np.stack([each.observe(one) for one in observations]) for each in symmetries)]
+        out = self.acting(as_input(np.concatenate(seen)).to(DEVICE))
+        subgoals: list[slice | list[int]] = [slice(None), *(list(each.subgoals) for each in symmetries)]
+        actions: list[slice | list[int]] = [slice(None), *(list(each.actions) for each in symmetries)]
+
+        def averaged(name: str, choices: Sequence[slice | list[int]]) -> torch.Tensor:
+            logs = out[name] if name == "termination" else torch.log_softmax(out[name], -1)
+            parts = [one[..., chosen] for one, chosen in zip(logs.split(n), choices, strict=True)]
+            if name == "lo":
+                parts = [one[:, chosen] for one, chosen in zip(parts, subgoals, strict=True)]
+            return torch.stack(parts).mean(0)
+
+        return {
+            "hi": averaged("hi", subgoals),
+            "lo": averaged("lo", actions),
+            "termination": averaged("termination", subgoals),
+            "flat": averaged("flat", actions),
+        }
+
     def of(self, key: PolicyKey) -> "PartPolicy":
         """Return one policy as a function of observations."""
         return PartPolicy(self, key)
@@ -100,13 +146,13 @@ class SharedPolicy:
         self.transitions.append(transitions)
         pictures, labels = (one.to(DEVICE) for one in self.transitions[range(len(self.transitions))])
         self.network.find_agent((pictures[:, 0], labels[:, 0], pictures[:, 1]), self.rng)
-        acting = self.acting
-        assert isinstance(acting, FieldNet)
-        acting.finder.load_state_dict(self.network.finder.state_dict())
-        acting.displacements = self.network.displacements.clone()
+        self._acting.finder.load_state_dict(self.network.finder.state_dict())
+        self._acting.displacements = self.network.displacements.clone()
 
     def train(self, data: Data) -> None:
         """Train(policy, D) for all policies together: passes over all rows, each in a new random order."""
+        if self._told is None and self.network.spec.symmetries:
+            self._find_symmetries(data)
         n = sum(map(len, data.values()))
         self._fit(data, min(max(self.spec.passes * n, self.spec.least), self.spec.most))
 
@@ -114,15 +160,25 @@ class SharedPolicy:
         """Train as `train` does, on as many more rows as `idle` says. The caller does this while the expert answers."""
         self._fit(data, self.spec.idle)
 
+    def _find_symmetries(self, data: Data) -> None:
+        actions_of = torch.zeros(self._n_subgoals, self._n_actions, dtype=torch.int64)
+        for key, one in data.items():
+            if key.subgoal is not None:
+                actions_of[key.subgoal] = one.counts(self._n_actions)
+        self.network.symmetries = find_symmetries(self._shape, self.network.displacements, actions_of)
+        self._acting.symmetries = self.network.symmetries.clone()
+
     def _fit(self, data: Data, n_rows: int) -> None:
         rows = [(key, row) for key, one in data.items() for row in range(len(one))]
         if not rows or not n_rows:
             return
         passes = math.ceil(n_rows / len(rows))
         order = torch.cat([torch.randperm(len(rows), generator=self.rng) for _ in range(passes)])[:n_rows]
+        changes = [None, *self.symmetries]
         self.network.train()
         for some in torch.split(order, self.spec.batch):
-            batch = _batch(data, [rows[i] for i in some.tolist()])
+            drawn = torch.randint(len(changes), (len(some),), generator=self.rng)
+            batch = _batch(data, [(*rows[i], changes[j]) for i, j in zip(some.tolist(), drawn.tolist(), strict=True)])
             for group in self.optimizer.param_groups:
                 group["lr"] = self.spec.learning_rate * self._rate()
             loss = self._loss(self.network(to_device(batch.observations)), batch)
@@ -162,7 +218,7 @@ class PartPolicy:
     @torch.inference_mode()
     def __call__(self, observations: Observation) -> Outputs:
         """Return the outputs for a batch float32 or uint8[B, C, rows, columns]."""
-        out = self._shared.acting(as_input(observations).to(DEVICE))
+        out = self._shared.outputs(observations)
         none = np.zeros(len(observations), np.float32)
         if self._key == META:
             return Outputs(out["hi"].cpu().numpy(), none)
@@ -178,22 +234,29 @@ def _cross_entropy(logits: torch.Tensor, labels: torch.Tensor) -> torch.Tensor:
     return functional.cross_entropy(logits, labels, ignore_index=UNLABELED, reduction="sum") / n
 
 
-def _batch(data: Data, rows: list[tuple[PolicyKey, int]]) -> _Batch:
+def _batch(data: Data, rows: Sequence[tuple[PolicyKey, int, Symmetry | None]]) -> _Batch:
+    """Return rows of the buffers, each transformed by a symmetry, if there is one."""
     seen, labels, keys = [], [], []
     for key in data:
-        chosen = [row for one, row in rows if one == key]
-        if chosen:
-            observations, found = data[key][chosen]
-            seen.append(observations)
-            labels.append(found)
-            keys += [key] * len(chosen)
-    choice, termination = torch.cat(labels).to(DEVICE).unbind(1)
+        chosen = [(row, symmetry) for one, row, symmetry in rows if one == key]
+        if not chosen:
+            continue
+        observations, found = data[key][[row for row, _ in chosen]]
+        for observation, label, (_, symmetry) in zip(observations, found.tolist(), chosen, strict=True):
+            changed = {key: [Row(observation.numpy(), *label)]}
+            if symmetry is not None:
+                changed = transformed_rows(changed, symmetry)
+            for key_after, (row,) in changed.items():
+                seen.append(torch.from_numpy(row.observation))
+                labels.append((row.choice, row.termination))
+                keys.append(key_after)
+    choice, termination = torch.tensor(labels).to(DEVICE).unbind(1)
     subgoal = torch.tensor([UNLABELED if key.subgoal is None else key.subgoal for key in keys]).to(DEVICE)
     unlabeled = torch.full_like(choice, UNLABELED)
     of_pi, of_mu = subgoal != UNLABELED, torch.tensor([key == META for key in keys]).to(DEVICE)
     acted = choice != UNLABELED
     return _Batch(
-        torch.cat(seen),
+        torch.stack(seen),
         hi=torch.where(of_mu, choice, torch.where(of_pi & acted, subgoal, unlabeled)),
         subgoal=subgoal.clamp(min=0),
         action=torch.where(of_pi, choice, unlabeled),
