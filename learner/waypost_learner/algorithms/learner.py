@@ -255,12 +255,16 @@ class Learner:
             (policy.train_idle if idle else policy.train)(self.data[key])
 
     def _transitions_of(self, labels: Labels) -> Iterator[Row]:
-        """Yield the observations before and after each action of demonstrations and of a flat policy's rollouts."""
+        """Yield the observations before and after each action that changed them, of all trajectories with labels.
+
+        Who acted does not matter here: each action shows where it moves the agent.
+        """
         symmetries = symmetries_of(self.domain) if self.preset.use.symmetries else ()
-        trajectories = [*labels.demonstrations, *(trajectory for trajectory, _ in labels.flat)]
-        for segment in chain.from_iterable(trajectories):
+        for segment in chain.from_iterable(trajectory for trajectory, _ in (*labels.hi, *labels.flat)):
             for (before, after), action in zip(pairwise(segment.states), segment.actions, strict=True):
                 pair = before.observation, after.observation
+                if np.array_equal(*pair):
+                    continue
                 yield Row(np.stack(pair), action)
                 for each in symmetries:
                     yield Row(np.stack([each.observe(one) for one in pair]), each.actions[action])

@@ -106,8 +106,12 @@ class QFunction:
 
     @property
     def epsilon(self) -> float:
-        """The current probability of a random choice in training; 0 while there are no updates, as in `mastered`."""
-        if self.mastered:
+        """The current probability of a random choice in training.
+
+        It is 0 while there are no updates, unless they have ended for good: then it stays as it was when the attempts
+        succeeded, because some states are left only by a random action.
+        """
+        if self.mastered and self.spec.relearn:
             return 0.0
         steps, values = zip(*self.spec.epsilon, strict=True)
         return float(np.interp(float(self.steps), steps, values))
@@ -134,6 +138,8 @@ class QFunction:
 
     def step(self) -> None:
         """Count one step under this Q-function, and update it every `update_every` steps (Algorithm 3, line 11)."""
+        if self.mastered and not self.spec.relearn:
+            return
         self.steps += 1
         due = self.steps % self.spec.update_every == 0 and len(self.replay) >= self.spec.least
         if due and not self.mastered:

@@ -107,11 +107,8 @@ def test_experience_can_be_kept_only_from_the_first_success_on() -> None:
     assert sizes == [0, 0, 8, 16]
 
 
-@pytest.mark.parametrize(("relearn", "last"), [(True, 1), (False, 0)])
-def test_updates_and_exploration_stop_when_the_last_hundred_attempts_succeed_often_enough(
-    relearn: bool, last: int
-) -> None:
-    q = QFunction((5,), 2, NETWORK, replace(SPEC, stop_above=0.9, relearn=relearn), 0)
+def succeeding(q: QFunction) -> tuple[list[int], list[float]]:
+    """The updates and the exploration after 99 successes, one more, nine failures, and one more."""
     q.remember(chain())
     updates, explores = [], []
     for outcome, times in (("reached", 99), ("reached", 1), ("failed", 9), ("failed", 1)):
@@ -120,9 +117,21 @@ def test_updates_and_exploration_stop_when_the_last_hundred_attempts_succeed_oft
         before = q.updates
         q.step()
         updates.append(q.updates - before)
-        explores.append(q.epsilon > 0)
-    assert updates == [1, 0, 0, last]  # 91 of 100 is above 0.9, 90 of 100 is not
-    assert explores == [True, False, False, bool(last)]
+        explores.append(q.epsilon)
+    return updates, explores
+
+
+def test_updates_and_exploration_stop_while_the_last_hundred_attempts_succeed_often_enough() -> None:
+    updates, explores = succeeding(QFunction((5,), 2, NETWORK, replace(SPEC, stop_above=0.9), 0))
+    assert updates == [1, 0, 0, 1]  # 91 of 100 is above 0.9, 90 of 100 is not
+    assert [one > 0 for one in explores] == [True, False, False, True]
+
+
+def test_updates_can_end_for_good_and_exploration_then_stays_as_it_was() -> None:
+    spec = replace(SPEC, stop_above=0.9, relearn=False, epsilon=((0, 1.0), (10, 0.0)))
+    updates, explores = succeeding(QFunction((5,), 2, NETWORK, spec, 0))
+    assert updates == [1, 0, 0, 0]
+    assert explores == [0.9, 0.9, 0.9, 0.9]
 
 
 def test_a_demonstration_is_a_success_but_no_attempt() -> None:

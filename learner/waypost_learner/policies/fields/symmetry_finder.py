@@ -79,7 +79,9 @@ def _matched(first: Any, second: Any, observed: Any) -> list[int] | None:
     matches, free = {}, set(range(len(first)))
     for row in np.argsort(-observed, kind="stable").tolist():
         far = distances[row] - _EQUAL * (np.arange(len(first)) == row)
-        nearest = min(free, key=far.__getitem__)
+        nearest, *others = sorted(free, key=far.__getitem__)
+        if others and nearest != row and far[others[0]] - far[nearest] < _EQUAL:
+            return None  # too little was seen to tell which of them is its partner
         if distances[row, nearest] > _FITS + _NOISE / np.sqrt(min(observed[row], observed[nearest]) + 1):
             return None
         matches[row] = nearest
