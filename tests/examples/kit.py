@@ -15,7 +15,12 @@ from waypost_learner.runs.evaluation import evaluate
 from waypost_learner.runs.setup import build_learner
 from waypost_learner.runs.training import train
 
-DOMAINS = ["waypost_control:upright_pendulum", "waypost_dialogue:flight_dialogue", "waypost_minigrid:unlock_pickup"]
+DOMAINS = [
+    "waypost_control:upright_pendulum",
+    "waypost_crossing:lava_crossing",
+    "waypost_dialogue:flight_dialogue",
+    "waypost_minigrid:unlock_pickup",
+]
 QUICK = " ".join(f"train_{level}.{value}" for level in ("hi", "lo") for value in ("idle=0", "least=3200", "most=3200"))
 
 

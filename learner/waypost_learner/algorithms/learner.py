@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from waypost.domains import Domain, Placed, Symmetry, symmetries_of
+from waypost.domains import Domain, Placed, Symmetric, Symmetry, symmetries_of
 from waypost.trajectory import Segment, State, Trajectory
 from waypost_learner.policies.datasets import Dataset, Row
 from waypost_learner.policies.domain_use import DomainUse
@@ -96,7 +96,8 @@ class Learner:
         if training.fields is None or self.levels.reinforced or len(domain.observation_shape) != 3:
             return None
         sizes = len(domain.subgoals), len(domain.actions)
-        symmetries = symmetries_of(domain) if self.preset.use.symmetries else None
+        told = self.preset.use.symmetries and isinstance(domain, Symmetric)
+        symmetries = symmetries_of(domain) if told else None
         shape, seed = domain.observation_shape, self._seed(owner)
         return SharedPolicy(shape, *sizes, training.fields, training.train_shared, seed, symmetries)
 

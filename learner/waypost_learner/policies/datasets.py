@@ -63,6 +63,12 @@ class Dataset:
         choices = torch.tensor([choice for choice, _ in self._labels if choice != UNLABELED], dtype=torch.int64)
         return torch.bincount(choices, minlength=n_choices)
 
+    def last_counts(self, n_choices: int) -> torch.Tensor:
+        """Return how many segments ended after each choice, int64[n_choices]; their rows are in order."""
+        ended = ((first, second[1]) for (first, _), second in pairwise(self._labels))
+        choices = [choice for choice, ends in ended if ends == 1 and choice != UNLABELED]
+        return torch.bincount(torch.tensor(choices, dtype=torch.int64), minlength=n_choices)
+
     def append(self, rows: Iterable[Row]) -> None:
         """Append rows."""
         for row in rows:

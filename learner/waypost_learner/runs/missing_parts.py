@@ -38,7 +38,12 @@ def missing_parts(learner: Learner) -> dict[str, str]:
             preset.training.fields is not None and levels.imitating and learner.shared is None,
             "Each policy has its own network: only policies that all imitate, and that see pictures, share one.",
         ),
-        "symmetries": (wanted and not symmetries_of(domain), "Labels are learned only as they were given."),
+        "symmetries": (
+            wanted and not symmetries_of(domain),
+            "Labels are learned only as they were given."
+            if learner.shared is None or learner.shared.is_told
+            else "Turns and reflections of pictures are used that fit the moves and the labels so far.",
+        ),
         "views": (use.views and not isinstance(domain, Viewed), "Policies see whole observations."),
         "centered": (
             use.centered and (levels.imitating or not use.views) and not isinstance(domain, Centered),

@@ -98,8 +98,10 @@ def test_only_what_was_observed_reaches_the_network() -> None:
         instances, state_view, instance_view = maze.instances, maze.state_view, maze.instance_view
 
     told = taught(briefly(2, symmetries=False), 2)
-    bare = Learner(Bare(), briefly(2, symmetries=False), 0, threads=1)  # type: ignore[arg-type]  # it needs no more
+    bare = Learner(Bare(), briefly(2), 0, threads=1)  # type: ignore[arg-type]  # it needs no more
     teach(bare, 2)
+    assert bare.shared is not None
+    assert bare.shared.symmetries  # which it found, as nobody declared any
     assert checkpoints.weights_hash(bare) == checkpoints.weights_hash(told)
 
 

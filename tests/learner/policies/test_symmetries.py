@@ -24,7 +24,7 @@ def moves(*displacements: tuple[int, int]) -> torch.Tensor:
 def found(
     displacements: torch.Tensor, actions_of: list[list[int]], shape: tuple[int, ...] = SQUARE
 ) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
-    table = find_symmetries(shape, displacements, torch.tensor(actions_of))
+    table = find_symmetries(shape, displacements, [torch.tensor(actions_of)])
     return [(one.subgoals, one.actions) for one in symmetries_in(table, len(actions_of))]
 
 
@@ -67,7 +67,7 @@ def test_a_learner_can_do_without_looking_for_them() -> None:
 
 
 def test_all_turns_fit_moves_and_labels_that_are_the_same_in_each_direction() -> None:
-    table = find_symmetries(SQUARE, moves(*COMPASS), torch.tensor(TOWARD))
+    table = find_symmetries(SQUARE, moves(*COMPASS), [torch.tensor(TOWARD)])
     assert (table != NO_SYMMETRY).all()
     assert len({tuple(row) for row in table.tolist()}) == 7
 
@@ -90,7 +90,8 @@ def test_a_turn_that_the_experts_actions_contradict_is_none() -> None:
 
 
 def test_a_domain_without_any_has_none() -> None:
-    assert found(moves(*COMPASS), [[300, 0, 0, 100]]) == []
+    assert found(moves((-1, 0), (0, 1), (1, 1)), [[30, 30, 30]]) == []  # no turn of these moves gives them again
+    assert found(moves(*COMPASS), [[400, 0, 100, 700]]) == []  # the expert prefers some of them
 
 
 def test_actions_that_do_not_move_the_agent_stay_themselves() -> None:
@@ -99,6 +100,12 @@ def test_actions_that_do_not_move_the_agent_stay_themselves() -> None:
     some = found(displacements, toward)
     assert len(some) == 7
     assert all(subgoals[4:] == actions[4:] == (4, 5) for subgoals, actions in some)
+
+
+def test_subgoals_that_few_actions_could_mean_alike_wait_for_more() -> None:
+    """The third and the fourth subgoal were never seen, so nothing tells which is the partner of the first."""
+    assert found(moves((-1, 0), (1, 0)), [[30, 0], [20, 20], [0, 0], [0, 0]]) == [((0, 1, 2, 3), (0, 1))]
+    assert found(moves((-1, 0), (1, 0)), [[30, 0], [20, 20], [0, 30], [0, 0]])[-1] == ((2, 1, 0, 3), (1, 0))
 
 
 @given(st.permutations(range(4)), st.permutations(range(4)))

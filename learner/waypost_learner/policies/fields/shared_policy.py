@@ -93,6 +93,11 @@ class SharedPolicy:
         return self.average.module
 
     @property
+    def is_told(self) -> bool:
+        """Whether no symmetries are looked for: the learner was told those that there are, or does without any."""
+        return self._told is not None or not self.network.spec.symmetries
+
+    @property
     def symmetries(self) -> Sequence[Symmetry]:
         """The domain's symmetries: those that the learner was told, or those that it found."""
         if self._told is not None:
@@ -151,7 +156,7 @@ class SharedPolicy:
 
     def train(self, data: Data) -> None:
         """Train(policy, D) for all policies together: passes over all rows, each in a new random order."""
-        if self._told is None and self.network.spec.symmetries:
+        if not self.is_told:
             self._find_symmetries(data)
         n = sum(map(len, data.values()))
         self._fit(data, min(max(self.spec.passes * n, self.spec.least), self.spec.most))
@@ -161,11 +166,12 @@ class SharedPolicy:
         self._fit(data, self.spec.idle)
 
     def _find_symmetries(self, data: Data) -> None:
-        actions_of = torch.zeros(self._n_subgoals, self._n_actions, dtype=torch.int64)
+        every, last = torch.zeros(2, self._n_subgoals, self._n_actions, dtype=torch.int64)
         for key, one in data.items():
             if key.subgoal is not None:
-                actions_of[key.subgoal] = one.counts(self._n_actions)
-        self.network.symmetries = find_symmetries(self._shape, self.network.displacements, actions_of)
+                every[key.subgoal] = one.counts(self._n_actions)
+                last[key.subgoal] = one.last_counts(self._n_actions)
+        self.network.symmetries = find_symmetries(self._shape, self.network.displacements, (every, last))
         self._acting.symmetries = self.network.symmetries.clone()
 
     def _fit(self, data: Data, n_rows: int) -> None:
