@@ -1,6 +1,7 @@
 """Find the symmetries of a domain of pictures that nobody told: turns and reflections that fit moves and labels."""
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any
 
@@ -10,10 +11,11 @@ import torch
 from waypost.domains import Symmetry
 from waypost.trajectory import Observation
 
-_FITS = 0.25  # the largest distance, in total variation, of two distributions that are taken for the same ...
-_NOISE = 1.0  # ... to which this is added, divided by the root of the number of observations
+_FITS = 0.25  # the largest distance, in total variation, of the moves of actions that are taken for the same
+_EVIDENCE = 3.0  # how much likelier, in nats, labels must be if subgoals correspond than if they do not
+_MARGIN = 0.5  # nats by which the partner of a subgoal must be likelier than any other, unless it is the subgoal itself
+_MOST = 20  # labels of each kind and subgoal that count: so a small preference of the expert outweighs nothing
 NO_SYMMETRY = -1
-_EQUAL = 0.05  # distances that differ by less are taken for equal: then a choice stays itself
 
 
 def _turned(mirrored: bool, quarters: int, picture: Any) -> Any:
@@ -51,20 +53,16 @@ def find_symmetries(
     found = np.full((len(TURNS), n_subgoals + n_actions), NO_SYMMETRY)
     square = observation_shape[1] == observation_shape[2]
     for row, turn in enumerate(TURNS if square else TURNS[:_OF_OBLONGS]):
-        moved = _distances(turn(moves.reshape(-1, 3, 3)).reshape(-1, 9), moves)
-        actions = _matched(moved, np.full(n_actions, np.inf), np.zeros((n_actions, n_actions)))
-        if actions is None:
+        actions = _matched(-_distances(turn(moves.reshape(-1, 3, 3)).reshape(-1, 9), moves), range(n_actions), 0.0)
+        if actions is None or min(likeness for _, likeness in actions) < -_FITS:
             continue
-        far, noise = np.zeros((2, n_subgoals, n_subgoals))
-        for taken in tables:
-            turned = np.empty_like(taken)
-            turned[:, actions] = taken
-            far += _distances(turned + 1, taken + 1) / len(tables)  # one more of each: few observations tell little
-            observed = taken.sum(1)
-            noise += _NOISE / np.sqrt(np.minimum(observed[:, None], observed[None]) + 1) / len(tables)
-        subgoals = _matched(far, tables[0].sum(1), noise)
-        if subgoals is not None:
-            found[row] = subgoals + actions
+        becomes = [action for action, _ in actions]
+        turned = [one[:, np.argsort(becomes)] for one in tables]
+        evidence = sum(_evidence(one, other) for one, other in zip(turned, tables, strict=True))
+        often_first = np.argsort(-tables[0].sum(1), kind="stable").tolist()
+        subgoals = _matched(evidence, often_first, _MARGIN)
+        if subgoals is not None and sum(likeness for _, likeness in subgoals) >= _EVIDENCE:
+            found[row] = [subgoal for subgoal, _ in subgoals] + becomes
     return torch.from_numpy(found)
 
 
@@ -78,24 +76,39 @@ def symmetries_in(found: torch.Tensor, n_subgoals: int) -> tuple[Symmetry, ...]:
 
 
 def _distances(first: Any, second: Any) -> Any:
-    """Return the distances, in total variation, of each row of `first` from each row of `second`; rows are counts."""
-    shares = first / first.sum(1, keepdims=True), second / second.sum(1, keepdims=True)
-    return np.abs(shares[0][:, None] - shares[1][None]).sum(2) / 2
+    """Return the distances, in total variation, of each row of `first` from each row of `second`; rows are shares."""
+    return np.abs(first[:, None] - second[None]).sum(2) / 2
 
 
-def _matched(distances: Any, observed: Any, noise: Any) -> list[int] | None:
-    """Return the nearest partner of each row; None if one is farther than the noise allows, or could be another.
+def _evidence(first: Any, second: Any) -> Any:
+    """Return the logarithm of the Bayes factor for each row of `first` and each row of `second`, which are counts.
 
-    Different rows have different partners. Rows that were observed more often choose first.
+    It compares that both were drawn with the same unknown probabilities with that each had its own. Their prior is
+    uniform. Rows with few counts give little evidence either way.
     """
-    matches, free = {}, set(range(len(distances)))
-    for row in np.argsort(-observed, kind="stable").tolist():
-        far = distances[row] - _EQUAL * (np.arange(len(distances)) == row)
-        nearest, *others = sorted(free, key=far.__getitem__)
-        if others and nearest != row and far[others[0]] - far[nearest] < _EQUAL:
-            return None  # too little was seen to tell which of them is its partner
-        if distances[row, nearest] > _FITS + noise[row, nearest]:
+    first, second = (one * np.minimum(1, _MOST / np.maximum(one.sum(1, keepdims=True), 1)) for one in (first, second))
+    together = _log_likelihood(first[:, None] + second[None])
+    return together - _log_likelihood(first)[:, None] - _log_likelihood(second)[None]
+
+
+def _log_likelihood(counts: Any) -> Any:
+    """Return the logarithms of the probabilities of counts, in the last axis, if each distribution is as likely."""
+    gamma = np.vectorize(math.lgamma)
+    n = counts.shape[-1]
+    return gamma(n) - gamma(n + counts.sum(-1)) + gamma(1 + counts).sum(-1)
+
+
+def _matched(likeness: Any, order: Iterable[int], margin: float) -> list[tuple[int, float]] | None:
+    """Return for each row the most alike column, with how alike they are; None if another is as much alike.
+
+    Different rows have different partners. Rows choose in the given order. A row prefers itself by the margin.
+    """
+    matches, free = {}, set(range(len(likeness)))
+    for row in order:
+        preferred = likeness[row] + margin * (np.arange(len(likeness)) == row)
+        best, *others = sorted(free, key=preferred.__getitem__, reverse=True)
+        if others and best != row and preferred[best] - preferred[others[0]] < margin:
             return None
-        matches[row] = nearest
-        free.remove(nearest)
-    return [matches[row] for row in range(len(distances))]
+        matches[row] = (best, float(likeness[row, best]))
+        free.remove(best)
+    return [matches[row] for row in range(len(likeness))]
