@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from waypost_learner.experiments.figures import look
 from waypost_learner.experiments.figures.statistics import Track, spread
@@ -82,17 +83,24 @@ def write(path: Path, runs: Iterable[Run]) -> None:
 
 def drawn(groups: Sequence[tuple[str, Sequence[Run]]]) -> Figure:
     """Return the figure: for each group of runs, the median and range of success against cost."""
-    with rc_context(look.RC):
-        figure = Figure(look.SIZE, layout="constrained")
-        axes = figure.subplots()
+    figure = Figure(look.SIZE, layout="constrained")
+    axes = figure.subplots()
     legend = []
     for (name, runs), style in zip(groups, STYLES, strict=False):
         look.curve(axes, [track(run) for run in runs], style)
-        legend.append((f"{name} ({len(runs)} seeds)", style))
+        legend.append((f"{name} ({len(runs)} seed{'s' * (len(runs) != 1)})", style))
     look.percent_axis(axes, "Success on fresh instances")
     look.count_axis(axes.xaxis, "Expert cost, units")
     axes.set_xlim(left=0)
-    look.legend(figure, legend, EXPLANATION, markers=False)
+    handles = [Line2D([], [], color=one.color, linestyle=one.line, linewidth=1.8, label=name) for name, one in legend]
+    figure.legend(
+        handles=handles,
+        loc="outside lower left",
+        handlelength=3.6,
+        title=EXPLANATION,
+        alignment="left",
+        title_fontsize=9,
+    )
     return figure
 
 
