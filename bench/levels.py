@@ -11,7 +11,7 @@ import csv
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import cycle, groupby
 from pathlib import Path
 
 import numpy as np
@@ -86,7 +86,7 @@ def drawn(groups: Sequence[tuple[str, Sequence[Run]]]) -> Figure:
     figure = Figure(look.SIZE, layout="constrained")
     axes = figure.subplots()
     legend = []
-    for (name, runs), style in zip(groups, STYLES, strict=False):
+    for (name, runs), style in zip(groups, cycle(STYLES), strict=False):
         look.curve(axes, [track(run) for run in runs], style)
         legend.append((f"{name} ({len(runs)} seed{'s' * (len(runs) != 1)})", style))
     look.percent_axis(axes, "Success on fresh instances")

@@ -86,3 +86,13 @@ def test_a_row_is_kept_as_it_was_when_the_observation_changes_later() -> None:
     observation[:] = 7
     assert data[[0]][0].tolist() == [[0, 0]]
     assert state().observation.tolist() == [0, 0]
+
+
+def test_a_buffer_counts_its_choices_and_those_after_which_a_segment_ended() -> None:
+    seen = np.zeros(2, np.float32)
+    data = Dataset((2,))
+    ended, going = [Row(seen, UNLABELED, 1)], [Row(seen, UNLABELED, 0)]  # where it should end, no action is labeled
+    data.append([Row(seen, 2), Row(seen, 1, 0), *ended, Row(seen, 2), *ended, Row(seen, 0), *going])
+    assert data.counts(4).tolist() == [1, 1, 2, 0]
+    assert data.last_counts(4).tolist() == [0, 1, 1, 0]
+    assert Dataset((2,)).last_counts(4).tolist() == [0, 0, 0, 0]

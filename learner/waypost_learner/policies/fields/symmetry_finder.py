@@ -14,7 +14,7 @@ from waypost.trajectory import Observation
 _FITS = 0.25  # the largest distance, in total variation, of the moves of actions that are taken for the same
 _EVIDENCE = 3.0  # how much likelier, in nats, labels must be if subgoals correspond than if they do not
 _MARGIN = 0.5  # nats by which the partner of a subgoal must be likelier than any other, unless it is the subgoal itself
-_MOST = 20  # labels of each kind and subgoal that count: so a small preference of the expert outweighs nothing
+_MOST = 20  # actions in a row of a table that count: so a small preference of the expert cannot outweigh the rest
 NO_SYMMETRY = -1
 
 
@@ -41,8 +41,9 @@ def find_symmetries(
     Args:
         observation_shape: (channels, rows, columns) of the pictures.
         displacements: where each action moved the agent, as shares float32[actions, 9] (`AgentFinder.displacements`).
-        actions_of: how often the expert took each action toward each subgoal, int64[subgoals, actions]; several such
-            tables, such as one of all actions and one of the last actions, must all fit.
+        actions_of: how often the expert took each action toward each subgoal, int64[subgoals, actions]; the
+            evidence of several such tables, such as one of all actions and one of the last actions, is added up.
+            Without any action toward a subgoal, as for a flat policy, there is no evidence, so nothing is found.
 
     Returns:
         For each of `TURNS`, what each subgoal and then each action becomes, int64[turns, subgoals + actions]; a row of
@@ -92,7 +93,7 @@ def _evidence(first: Any, second: Any) -> Any:
 
 
 def _log_likelihood(counts: Any) -> Any:
-    """Return the logarithms of the probabilities of counts, in the last axis, if each distribution is as likely."""
+    """Return the logarithms of the probabilities of counts, along the last axis, under a uniform prior."""
     gamma = np.vectorize(math.lgamma)
     n = counts.shape[-1]
     return gamma(n) - gamma(n + counts.sum(-1)) + gamma(1 + counts).sum(-1)
