@@ -7,7 +7,6 @@ instead of turning it. In this module, a state is the JSON view that `state` ret
 from typing import Any
 
 import gymnasium
-import minigrid  # noqa: F401  # registers the environments
 import numpy as np
 
 import waypost
@@ -94,7 +93,7 @@ def successor(state: State, action: str) -> State:
 
 
 lava_crossing = waypost.domain(
-    lambda: Moves(gymnasium.make("MiniGrid-LavaCrossingS11N5-v0", render_mode="rgb_array", highlight=False)),
+    lambda: Moves(gymnasium.make("minigrid:MiniGrid-LavaCrossingS11N5-v0", render_mode="rgb_array", highlight=False)),
     ("cross_right", "cross_down", "goal"),
     name="crossing",
     actions=tuple(MOVES),
