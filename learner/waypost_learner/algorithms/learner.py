@@ -297,7 +297,7 @@ class Learner:
     def _explored(self, key: PolicyKey, segment: Segment) -> bool:
         """Let a subgoal's exploration learn from a segment; return whether it is one of the shortest successes."""
         places = [self._place(state.view) for state in segment.states]
-        return self.explorations[key].learn(segment.actions, places, segment.outcome == "reached")
+        return self.explorations[key].learn(segment.actions, places, segment.outcome == "reached", segment.final)
 
     def _experience(self, key: PolicyKey, trajectory: Trajectory) -> Experience:
         dqn = self._dqn(key)
