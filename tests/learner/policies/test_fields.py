@@ -158,14 +158,14 @@ def test_values_of_the_shared_network_are_refused_where_there_is_none() -> None:
         refused("fields.far=8", "hg-dagger-q")()
 
 
-@pytest.mark.parametrize("values", ["fields.reach=0", "fields.ending=0", "fields.gain=0.0"])
+@pytest.mark.parametrize("values", ["fields.far=0", "fields.ending=0", "fields.gain=0.0"])
 def test_sizes_out_of_their_range_are_refused(values: str) -> None:
-    with pytest.raises(ValueError, match="fields need far, near, reach"):
+    with pytest.raises(ValueError, match="fields need far, ending"):
         refused(values)()
 
 
 def test_steps_that_could_grow_beyond_all_numbers_are_refused() -> None:
-    with pytest.raises(ValueError, match="smaller far, near or gain"):
+    with pytest.raises(ValueError, match="smaller far or gain"):
         refused("fields.far=2000")()
 
 
@@ -175,7 +175,7 @@ def test_a_shared_network_needs_an_average_of_its_weights() -> None:
 
 
 def test_fields_stay_finite_over_many_steps() -> None:
-    network = FieldNet(3, 5, 4, FieldSpec(far=300), torch.Generator().manual_seed(0))
+    network = FieldNet((3, 17, 17), 5, 4, FieldSpec(far=300), torch.Generator().manual_seed(0))
     with torch.no_grad():
         for gate in (-50.0, 50.0):  # all open, all shut
             network.gates[2].bias.fill_(gate)
