@@ -10,6 +10,7 @@ import torch
 from tests.learner.policies.fields_kit import TRAIN, briefly, demonstrated, maze, seen, taught, teach
 from torch.nn import functional
 
+from waypost.trajectory import Segment
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.maze.maze import MOVES
 from waypost_learner.policies.fields import agent_finder
@@ -82,6 +83,24 @@ def test_a_flat_policy_learns_with_the_same_network() -> None:
             good += int((logits.argmax(1) == np.array(segment.actions)).sum())
             steps += len(segment.actions)
     assert good / steps > 0.5  # one of four; often two actions are right, and one was shown
+
+
+def test_ends_of_subgoals_are_looked_for_as_far_away_as_subgoals_ended_so_far() -> None:
+    def moved(segment: Segment) -> int:
+        return max(
+            abs(after - before) for before, after in zip(segment.start.view, segment.states[-1].view, strict=True)
+        )
+
+    learner = taught(briefly(1), 3)
+    assert learner.shared is not None
+    network = learner.shared.network
+    assert learner.shared.acting.reach == network.reach
+    assert network.reach == max(moved(one) for instance in TRAIN[:3] for one in demonstrated(instance))
+    for segment in demonstrated(TRAIN[500]):
+        network.look_as_far_as(
+            *(torch.from_numpy(one.observation[None]) for one in (segment.start, segment.states[-1]))
+        )
+        assert network.reach == moved(segment)
 
 
 def test_only_what_was_observed_reaches_the_network() -> None:
