@@ -101,6 +101,20 @@ def test_ends_of_subgoals_are_looked_for_as_far_away_as_subgoals_ended_so_far() 
             *(torch.from_numpy(one.observation[None]) for one in (segment.start, segment.states[-1]))
         )
         assert network.reach == moved(segment)
+    told = taught(briefly(1, fields=FieldSpec(reach=2)), 3)
+    assert told.shared is not None
+    assert told.shared.network.reach == 2
+
+
+def test_a_subpolicy_that_sees_no_end_of_its_subgoal_acts_for_the_task() -> None:
+    learner, observations = taught(briefly(50), 3), seen(1)[0]
+    assert learner.shared is not None
+    before = learner.shared.outputs(observations)
+    for_the_task = before["flat"].unsqueeze(1).expand_as(before["lo"])
+    assert not torch.allclose(before["lo"], for_the_task, atol=0.1)
+    with torch.no_grad():
+        learner.shared.acting.near[2].bias.fill_(-1e3)  # the network finds no end anywhere
+    torch.testing.assert_close(learner.shared.outputs(observations)["lo"], for_the_task)
 
 
 def test_only_what_was_observed_reaches_the_network() -> None:
@@ -177,9 +191,9 @@ def test_values_of_the_shared_network_are_refused_where_there_is_none() -> None:
         refused("fields.far=8", "hg-dagger-q")()
 
 
-@pytest.mark.parametrize("values", ["fields.far=0", "fields.ending=0", "fields.gain=0.0"])
+@pytest.mark.parametrize("values", ["fields.far=0", "fields.reach=0", "fields.ending=0", "fields.gain=0.0"])
 def test_sizes_out_of_their_range_are_refused(values: str) -> None:
-    with pytest.raises(ValueError, match="fields need far, ending"):
+    with pytest.raises(ValueError, match="fields need far, reach"):
         refused(values)()
 
 

@@ -23,6 +23,7 @@ class FieldSpec:
     """Sizes of a network that spreads fields."""
 
     far: int = 64  # the most steps over which a field spreads
+    reach: int | None = None  # pixels to the farthest end of a subgoal; as far as subgoals ended so far if None
     ending: int = 3  # pixels from the agent that beta_g sees, in each direction
     features: int = 32  # of a pixel, for the ends of subgoals
     hidden: int = 64  # units of beta_g
@@ -35,8 +36,9 @@ class FieldSpec:
         Raises:
             ValueError: a number is out of its range, or fields could grow beyond float64; the message says which.
         """
-        if min(self.far, self.ending, self.features, self.hidden) < 1 or self.gain <= 0:
-            raise ValueError("fields need far, ending, features and hidden of at least 1, and gain above 0")
+        reach = 1 if self.reach is None else self.reach
+        if min(self.far, reach, self.ending, self.features, self.hidden) < 1 or self.gain <= 0:
+            raise ValueError("fields need far, reach, ending, features and hidden of at least 1, and gain above 0")
         if self.far * math.log(self.gain) > _LARGEST:
             raise ValueError("fields could grow beyond all numbers: choose a smaller far or gain")
 
@@ -93,7 +95,9 @@ class FieldNet(nn.Module):
         self.place = nn.Parameter(torch.zeros(spec.features, side, side))  # tells apart pixels around the agent
         self.ends_place = nn.Parameter(torch.zeros(n_subgoals, side, side))
         self.reach: torch.Tensor
-        self.register_buffer("reach", torch.tensor(1))  # pixels to the farthest end of a subgoal, in each direction
+        self.register_buffer(
+            "reach", torch.tensor(min(spec.reach or 1, self._farthest))
+        )  # pixels around the agent, in each direction
         self.termination = nn.Sequential(
             nn.Flatten(),
             nn.Linear(channels * (2 * spec.ending + 1) ** 2, spec.hidden),
@@ -116,19 +120,21 @@ class FieldNet(nn.Module):
         self.displacements = self.finder.displacements(transitions)
 
     def look_as_far_as(self, chosen: torch.Tensor, ended: torch.Tensor) -> None:
-        """Look for ends of subgoals as far from the agent as subgoals ended from where they were chosen.
+        """Look for ends of subgoals as far from the agent as subgoals ended, unless `FieldSpec.reach` says how far.
 
         Args:
             chosen: the pictures in which subgoals were chosen, float32[N, C, rows, columns].
             ended: the pictures in which they ended.
         """
-        moved = (self.finder.find(ended) - self.finder.find(chosen)).abs().max()
-        self.reach = moved.clamp(1, self._farthest)
+        if self.spec.reach is None:
+            moved = (self.finder.find(ended) - self.finder.find(chosen)).abs().max()
+            self.reach = moved.clamp(1, self._farthest)
 
     def forward(self, x: torch.Tensor) -> dict[str, torch.Tensor]:
         """Return all outputs for pictures float32[B, C, rows, columns].
 
         `hi` float32[B, subgoals]: logits of mu. `lo` float32[B, subgoals, actions]: logits of each pi_g.
+        `seen` float32[B, subgoals]: how likely it is that the subgoal ends in the pixel where this is likeliest.
         `termination` float32[B, subgoals]: logits of each beta_g. `flat` float32[B, actions]: logits of a flat policy.
         """
         spec, agent, reach = self.spec, self.finder.find(x), int(self.reach)
@@ -143,6 +149,7 @@ class FieldNet(nn.Module):
         return {
             "hi": torch.log(hi[:, :, reach, reach] + _LEAST).float(),
             "lo": self._climb(lo[:, :, reach - 1 : reach + 2, reach - 1 : reach + 2]),
+            "seen": ends.flatten(2).amax(2).float(),
             "termination": self.termination(_around(x, agent, spec.ending)),
             "flat": self._climb(_around(task, agent, 1)).squeeze(1),
         }

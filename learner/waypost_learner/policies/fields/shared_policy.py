@@ -24,6 +24,9 @@ from waypost_learner.rollout.rollout import Outputs
 _MOST_SEEN = 1_000  # transitions, or subgoals that ended; more are not kept, and the agent is no longer looked for
 _CLIP = 1.0  # the largest norm of a gradient
 _FLAT_WEIGHT = 0.3  # of the loss of flat actions beside a hierarchy, which gets no labels for them
+_UNSEEN = (
+    0.01  # where it is as likely that the subgoal ends anywhere, pi_g acts half for the subgoal, half for the task
+)
 _HALF_RATE = 400  # updates after which the learning rate is half of the first one ...
 _LEAST_RATE = 0.2  # ... of which this share remains
 
@@ -113,13 +116,16 @@ class SharedPolicy:
 
     @torch.inference_mode()
     def outputs(self, observations: Observation) -> dict[str, torch.Tensor]:
-        """Return the outputs of `FieldNet` for observations float32 or uint8[B, C, rows, columns].
+        """Return what the policies do, as `FieldNet` does, for observations float32 or uint8[B, C, rows, columns].
 
-        With symmetries, logarithms of probabilities, and logits of terminations, are averages over them.
+        The less an end of a subgoal is seen, the more its pi_g acts as a flat policy does: what helps the task seldom
+        harms a right subgoal. With symmetries, logarithms of probabilities, and logits of terminations, are averages
+        over them.
         """
         n, symmetries = len(observations), self.symmetries
         seen = [observations, *(np.stack([each.observe(one) for one in observations]) for each in symmetries)]
         out = self.acting(as_input(np.concatenate(seen)).to(DEVICE))
+        out["lo"] = _mixed(out["lo"], out["flat"].unsqueeze(1), _UNSEEN / (_UNSEEN + out["seen"].unsqueeze(2)))
         subgoals: list[slice | list[int]] = [slice(None), *(list(each.subgoals) for each in symmetries)]
         actions: list[slice | list[int]] = [slice(None), *(list(each.actions) for each in symmetries)]
 
@@ -241,6 +247,12 @@ class PartPolicy:
             return Outputs(out["flat"].cpu().numpy(), none)
         ending = torch.sigmoid(out["termination"][:, self._key.subgoal])
         return Outputs(out["lo"][:, self._key.subgoal].cpu().numpy(), ending.cpu().numpy())
+
+
+def _mixed(logits: torch.Tensor, others: torch.Tensor, share: torch.Tensor) -> torch.Tensor:
+    """Return the logarithms of probabilities of which a share comes from other logits."""
+    ours, theirs = torch.log_softmax(logits, -1), torch.log_softmax(others, -1)
+    return torch.logaddexp(torch.log1p(-share) + ours, torch.log(share) + theirs)
 
 
 def _cross_entropy(logits: torch.Tensor, labels: torch.Tensor) -> torch.Tensor:
