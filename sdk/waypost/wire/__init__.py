@@ -11,6 +11,7 @@ in units: one label costs one unit, unless the run sets other prices.
 
 from waypost.wire.answers import *
 from waypost.wire.assignments import *
+from waypost.wire.audit import *
 from waypost.wire.frames import *
 from waypost.wire.gold import *
 from waypost.wire.people import *
