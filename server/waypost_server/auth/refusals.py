@@ -17,6 +17,7 @@ from typing import Any, cast
 from fastapi import FastAPI, Request
 from fastapi.responses import JSONResponse
 from sqlalchemy import select
+from sqlalchemy.exc import DBAPIError
 from starlette.requests import HTTPConnection
 
 from waypost.wire import AuditAction
@@ -132,7 +133,7 @@ class Refusals:
         """Run a transaction; return whether it succeeded."""
         try:
             await self._db.write(work)
-        except errors.StorageFailed as error:
+        except (errors.StorageFailed, DBAPIError) as error:
             log.warning("A refusal could not be recorded in the audit log: %s", error)
             return False
         return True
