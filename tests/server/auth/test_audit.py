@@ -6,9 +6,12 @@ import hashlib
 import io
 import json
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from functools import partial
+from pathlib import Path
 
 import pytest
 from sqlalchemy import Connection, create_engine, func, select, text
@@ -25,6 +28,7 @@ from waypost_server.db.engine import Database, parse
 from waypost_server.db.tables import audit
 from waypost_server.users import service as users
 
+OPERATOR = Path(__file__).parents[3] / "docs" / "operator.md"
 SAME = {"Sec-Fetch-Site": "same-origin"}
 # Every kind of text with which a secret could be found again: the secret itself, and the hash that the store keeps.
 SECRETS = re.compile(r"wp_[\w-]{43}")
@@ -205,7 +209,9 @@ def test_each_action_makes_exactly_one_row_without_a_secret(service: Service, da
         assert hashlib.sha256(secret.encode()).hexdigest() not in written
 
 
-def test_an_exported_log_is_verified_with_nothing_but_sha_256(service: Service, database_url: str) -> None:
+def test_an_exported_log_is_verified_with_nothing_but_sha_256(
+    service: Service, database_url: str, tmp_path: Path
+) -> None:
     service.admin.post("/users", {"name": "=zoé", "role": "viewer"}, 201)
     before = "0" * 64
     for number, row in enumerate(log_of(service), start=1):
@@ -214,6 +220,10 @@ def test_an_exported_log_is_verified_with_nothing_but_sha_256(service: Service, 
         assert (row["number"], row["previous"], own) == (number, before, hashlib.sha256(said).hexdigest())
         before = own
     assert check(database_url)["head"] == f"{number}:{before}" == service.admin.get("/audit")["head"]
+    (tmp_path / "audit.jsonl").write_text(export(service))
+    (program,) = re.findall(r"```python\n(.*?)```", OPERATOR.read_text(), re.DOTALL)
+    printed = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert printed.stdout == f"{number}:{before}\n", "the program in the document for operators verifies it, too"
     rows = list(csv.DictReader(io.StringIO(export(service, "csv"), newline="")))
     assert [(row["number"], row["hash"]) for row in rows][-1] == (str(number), before)
     assert json.loads(rows[-1]["details"])["name"] == "=zoé"
