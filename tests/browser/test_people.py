@@ -52,7 +52,7 @@ def test_an_administrator_lets_somebody_in_and_sends_them_away(
     assert violations(admin) == [], "audit log"
     admin.get_by_role("combobox", name="Action").select_option("user.role_changed")
     expect(log.get_by_text("deactivated a user")).to_have_count(0)
-    expect(log.get_by_role("row").nth(1)).to_contain_text("from: annotator, to: viewer")
+    expect(log.get_by_role("row").nth(1)).to_contain_text("from: annotator, name: zoe of the lab, to: viewer")
     admin.get_by_role("textbox", name="Who").fill("nobody")
     admin.keyboard.press("Tab")
     expect(admin.get_by_text("No rows match.")).to_be_visible()
