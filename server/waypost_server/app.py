@@ -3,7 +3,7 @@
 import asyncio
 import logging
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 
 from fastapi import FastAPI
 from starlette.middleware.gzip import GZipMiddleware
@@ -20,6 +20,7 @@ from waypost_server.gold import practice_routes as practice
 from waypost_server.gold import routes as gold
 from waypost_server.gold.practice import open_practice
 from waypost_server.http import description, page, problems, spa
+from waypost_server.http.background import going_on
 from waypost_server.http.context import VERSION, Context
 from waypost_server.http.guard import Guard
 from waypost_server.leases import routes as leases
@@ -91,14 +92,11 @@ async def _lifespan(app: FastAPI, settings: Settings) -> AsyncIterator[None]:
     app.state.practice = await open_practice(db, settings.practice, settings.max_frame_bytes)
     app.state.relay = Relay()
     app.state.readiness = Readiness(db)
-    reaper = asyncio.create_task(_end_expired_leases(app.state.context))
+    context = app.state.context
     try:
-        async with app.state.refusals.sweeping(), delivering(app.state.context):
+        async with going_on(_end_expired_leases(context)), app.state.refusals.sweeping(), delivering(context):
             yield
     finally:
-        reaper.cancel()
-        with suppress(asyncio.CancelledError):
-            await reaper
         hub.close()
         await asyncio.to_thread(db.close)
 

@@ -10,7 +10,7 @@ import logging
 import time
 from collections import Counter
 from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from typing import Any, cast
 
@@ -29,6 +29,7 @@ from waypost_server.db.engine import Database
 from waypost_server.db.tables import runs
 from waypost_server.db.transaction import Tx
 from waypost_server.http import problems
+from waypost_server.http.background import going_on
 
 WINDOW_SECONDS = 60.0
 MOST_ROWS = 20  # of one actor in one window
@@ -78,6 +79,11 @@ class Window:
         """Count a refusal without a row."""
         self.left_out.setdefault(one.action, Counter())[one.operation] += 1
 
+    def add(self, other: "Window") -> None:
+        """Add what another window counted."""
+        for action, numbers in other.left_out.items():
+            self.left_out.setdefault(action, Counter()).update(numbers)
+
     def entries(self) -> list[Entry]:
         """Return the rows that hold the counts, by operation: at most one for each action."""
         everywhere = Actor(self.actor.name, self.actor.user)  # they came from several addresses
@@ -110,18 +116,17 @@ class Refusals:
             del self._windows[user]
             entries = window.entries()
             if entries and not await self._write(_all(entries)):
-                self._windows.setdefault(user, window)  # unless there are new ones, it is tried again
+                newest = self._windows.setdefault(user, window)  # it is tried again
+                if newest is not window:
+                    newest.add(window)
 
     @asynccontextmanager
     async def sweeping(self) -> AsyncIterator[None]:
         """Sweep for as long as the context lasts, and write all counts at its end."""
-        task = asyncio.create_task(self._sweep_forever())
         try:
-            yield
+            async with going_on(self._sweep_forever()):
+                yield
         finally:
-            task.cancel()
-            with suppress(asyncio.CancelledError):
-                await task
             await self.sweep(everything=True)
 
     async def _sweep_forever(self) -> None:

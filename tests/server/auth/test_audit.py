@@ -8,8 +8,9 @@ import json
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import cast
 
 import pytest
 from sqlalchemy.exc import OperationalError
@@ -20,6 +21,9 @@ from typer.testing import CliRunner
 from waypost_server.auth import refusals
 from waypost_server.cli import app
 from waypost_server.db.audit import Entry, nobody
+from waypost_server.db.engine import Database
+from waypost_server.db.transaction import Tx
+from waypost_server.errors import StorageFailed
 from waypost_server.users import service as users
 
 OPERATOR = Path(__file__).parents[3] / "docs" / "operator.md"
@@ -284,6 +288,37 @@ def test_after_a_minute_the_counts_are_written_and_a_refusal_has_a_row_again(lit
 
     asyncio.run(scene())
     assert [row["details"] for row in log_of(lite)[number:]] == [{}, {"left_out": {"me": 2}}, {}]
+
+
+def test_counts_that_cannot_be_written_are_written_with_those_of_the_next_minute(lite: Service) -> None:
+    now, entry = 0.0, Entry(nobody(None), "login.refused", None, {})
+    one = refusals.Refused(entry.actor, "login.refused", "me", lambda _: entry)
+    number = len(log_of(lite))
+
+    class FailsOnce:
+        fails = False
+
+        async def write(self, work: Callable[[Tx], None]) -> None:
+            if self.fails:
+                self.fails = False
+                await recorded.record(one)  # somebody is refused while the store fails
+                raise StorageFailed("disk full")
+            await lite.db.write(work)
+
+    store = FailsOnce()
+    recorded = refusals.Refusals(cast(Database, store), lambda: now)
+
+    async def scene() -> None:
+        nonlocal now
+        for _ in range(3):
+            await recorded.record(one)
+        now, store.fails = 61.0, True
+        await recorded.sweep()
+        now = 122.0
+        await recorded.sweep()
+
+    asyncio.run(scene())
+    assert [row["details"] for row in log_of(lite)[number:]] == [{}, {}, {"left_out": {"me": 2}}]
 
 
 def test_a_refusal_that_cannot_be_recorded_stays_a_refusal(
