@@ -60,7 +60,7 @@ class FieldNet(nn.Module):
     pixels to which actions move the agent, each action with the same weight. It is a soft value iteration (Tamar et al.
     2016) in exp(V). The task's field spreads from where the task ends, a subgoal's field from where the subgoal ends.
     pi_g climbs the subgoal's field. For mu, each end of a subgoal counts as much as the task's field there. Ends of
-    subgoals are looked for as far around the agent as the expert's subgoals ended, so far (`reach`).
+    subgoals are looked for as far from the agent as subgoals have ended so far (`reach`).
 
     Args:
         shape: (channels, rows, columns) of the pictures.
@@ -95,9 +95,8 @@ class FieldNet(nn.Module):
         self.place = nn.Parameter(torch.zeros(spec.features, side, side))  # tells apart pixels around the agent
         self.ends_place = nn.Parameter(torch.zeros(n_subgoals, side, side))
         self.reach: torch.Tensor
-        self.register_buffer(
-            "reach", torch.tensor(min(spec.reach or 1, self._farthest))
-        )  # pixels around the agent, in each direction
+        # Pixels around the agent, in each direction, among which ends of subgoals are looked for.
+        self.register_buffer("reach", torch.tensor(min(spec.reach or 1, self._farthest)))
         self.termination = nn.Sequential(
             nn.Flatten(),
             nn.Linear(channels * (2 * spec.ending + 1) ** 2, spec.hidden),
