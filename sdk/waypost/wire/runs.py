@@ -14,6 +14,8 @@ __all__ = [
     "EpisodeList",
     "EpisodeResult",
     "Event",
+    "Forecast",
+    "ForecastRange",
     "Milestone",
     "Prices",
     "Run",
@@ -21,6 +23,7 @@ __all__ = [
     "RunList",
     "RunPatch",
     "RunSort",
+    "SuccessLevel",
     "Vocabulary",
 ]
 
@@ -212,6 +215,41 @@ class Costs(Message):
     budget: float | None = Field(description="The highest total cost of the run, in units; null for no limit.")
     first_at: dict[str, Milestone | None] = Field(
         description='By success level ("0.8", "0.9", "0.95", "0.99"): when it was first reached; null if it was not.'
+    )
+
+
+SuccessLevel = Literal["0.8", "0.9", "0.95", "0.99"]
+
+
+class ForecastRange(Message):
+    """A forecast amount: the median of all possible futures, and the range that holds the middle 80 % of them.
+
+    Null: so many futures do not reach the target that the amount has no end.
+    """
+
+    low: float | None = Field(description="In a tenth of the futures it is less.")
+    median: float | None = Field(description="In half of the futures it is less.")
+    high: float | None = Field(description="In a tenth of the futures it is more.")
+
+
+class Forecast(Message):
+    """When a run will reach a success rate over 100 test episodes, sent by the server.
+
+    Exactly one of `reached`, `too_early` and `more_units` is set.
+    """
+
+    target: SuccessLevel = Field(description="The success rate.")
+    reached: Milestone | None = Field(description="When the run reached the target; null if it has not yet.")
+    too_early: str | None = Field(description="Why there is no forecast yet, as a sentence; null if there is one.")
+    more_units: ForecastRange | None = Field(description="How many more units the run needs.")
+    more_seconds: ForecastRange | None = Field(
+        description="The annotators' working time for these units, at the pace of the last answers by people; null if "
+        "there were none."
+    )
+    missed: float | None = Field(description="The share of futures in which the run does not reach the target, 0 to 1.")
+    same_configuration: int = Field(description="The number of finished runs used that differ only by their seed.")
+    other_configurations: int = Field(
+        description="The number of other finished runs used, of the domain and algorithm."
     )
 
 

@@ -80,6 +80,7 @@ ACCESS: Mapping[str, Access] = {
     "getRun": _ALL,
     "getCurves": _ALL,
     "getCosts": _ALL,
+    "getForecast": _ALL,
     "getFrame": _ALL,
     "listAtWork": _ALL,
     "streamEvents": _ALL,

@@ -84,6 +84,7 @@ MATRIX: dict[str, set[str]] = {
     "getRun": EVERYBODY,
     "getCurves": EVERYBODY,
     "getCosts": EVERYBODY,
+    "getForecast": EVERYBODY,
     "streamEvents": EVERYBODY,
     "streamChanges": EVERYBODY,
     "listAtWork": EVERYBODY,

@@ -401,6 +401,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/forecast": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Forecast
+         * @description Forecast how many more units the run needs to reach a success rate.
+         *
+         *     Every role may call it.
+         */
+        get: operations["getForecast"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{run}/query-rows": {
         parameters: {
             query?: never;
@@ -2604,6 +2626,74 @@ export interface components {
              * @description Whether all labels are correct.
              */
             is_right: boolean;
+        };
+        /**
+         * Forecast
+         * @description When a run will reach a success rate over 100 test episodes, sent by the server.
+         *
+         *     Exactly one of `reached`, `too_early` and `more_units` is set.
+         */
+        Forecast: {
+            /**
+             * Target
+             * @description The success rate.
+             * @enum {string}
+             */
+            target: "0.8" | "0.9" | "0.95" | "0.99";
+            /** @description When the run reached the target; null if it has not yet. */
+            reached: components["schemas"]["Milestone"] | null;
+            /**
+             * Too Early
+             * @description Why there is no forecast yet, as a sentence; null if there is one.
+             */
+            too_early: string | null;
+            /** @description How many more units the run needs. */
+            more_units: components["schemas"]["ForecastRange"] | null;
+            /** @description The annotators' working time for these units, at the pace of the last answers by people; null if there were none. */
+            more_seconds: components["schemas"]["ForecastRange"] | null;
+            /**
+             * Missed
+             * @description The share of futures in which the run does not reach the target, 0 to 1.
+             */
+            missed: number | null;
+            /**
+             * Same Configuration
+             * @description The number of finished runs used that differ only by their seed.
+             */
+            same_configuration: number;
+            /**
+             * Other Configurations
+             * @description The number of other finished runs used, of the domain and algorithm.
+             */
+            other_configurations: number;
+            /**
+             * From Finished
+             * @description The share of futures that follow finished runs; the rest continue this run's own curve, 0 to 1.
+             */
+            from_finished: number | null;
+        };
+        /**
+         * ForecastRange
+         * @description A forecast amount: the median of all possible futures, and the range that holds the middle 80 % of them.
+         *
+         *     Null: so many futures do not reach the target that the amount has no end.
+         */
+        ForecastRange: {
+            /**
+             * Low
+             * @description In a tenth of the futures it is less.
+             */
+            low: number | null;
+            /**
+             * Median
+             * @description In half of the futures it is less.
+             */
+            median: number | null;
+            /**
+             * High
+             * @description In a tenth of the futures it is more.
+             */
+            high: number | null;
         };
         /**
          * Frame
@@ -6432,6 +6522,76 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Costs"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getForecast: {
+        parameters: {
+            query?: {
+                /** @description The success rate over 100 test episodes. */
+                target?: "0.8" | "0.9" | "0.95" | "0.99";
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Forecast"];
                 };
             };
             /** @description Log in first */
