@@ -200,11 +200,12 @@ def _like(run: Finished, spread: float, share: float, seen: Sequence[Block], con
     """Yield a guess per scale: the run in question learns like this one, for so many times its units."""
     places = [block.units for block in run.blocks]
     rates = [_rate(run.blocks[max(row - 1, 0) : row + 1]) for row in range(len(run.blocks) + 1)]
+    logs = [(math.log(rate), math.log(1 - rate)) for rate in rates]
     bells = [math.exp(-z * z / 2) for z in _SCALES]
     for z, bell in zip(_SCALES, bells, strict=True):
         scale = math.exp(z * spread)
         outlook = {level: units * scale for level, units in run.reached.items()}
-        fit = _log_likelihood(seen, [rates[bisect_right(places, block.units / scale)] for block in seen])
+        fit = _log_likelihood(seen, [logs[bisect_right(places, block.units / scale)] for block in seen])
         weight = share * bell / sum(bells)
         yield _Guess(weight, constants.tempering * fit, outlook, run.spent * scale, run.differences == 0)
 
@@ -214,9 +215,10 @@ def _rate(near: Sequence[Block]) -> float:
     return (sum(block.passed for block in near) + 0.5) / (sum(block.tests for block in near) + 1)
 
 
-def _log_likelihood(seen: Sequence[Block], rates: Sequence[float]) -> float:
-    pairs = zip(seen, rates, strict=True)
-    return sum(one.passed * math.log(rate) + (one.tests - one.passed) * math.log(1 - rate) for one, rate in pairs)
+def _log_likelihood(seen: Sequence[Block], logs: Sequence[tuple[float, float]]) -> float:
+    """Return the logarithm of the likelihood of tests; `logs`: of the rates of success and of failure at each block."""
+    pairs = zip(seen, logs, strict=True)
+    return sum(block.passed * success + (block.tests - block.passed) * failure for block, (success, failure) in pairs)
 
 
 def _shaped(
@@ -232,7 +234,8 @@ def _shaped(
             for middle in _MIDDLES:
                 odds = [max(block.units / spent / middle, 1e-9) ** steepness for block in seen]
                 rates = [min(max(top * one / (1 + one), 0.005), 0.995) for one in odds]
-                fit = constants.tempering * _log_likelihood(seen, rates)
+                logs = [(math.log(rate), math.log(1 - rate)) for rate in rates]
+                fit = constants.tempering * _log_likelihood(seen, logs)
                 for relative_pace in _PACES:
                     outlook = {}
                     for level, mean in means.items():

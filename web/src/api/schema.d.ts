@@ -2666,11 +2666,6 @@ export interface components {
              * @description The number of other finished runs used, of the domain and algorithm.
              */
             other_configurations: number;
-            /**
-             * From Finished
-             * @description The share of futures that follow finished runs; the rest continue this run's own curve, 0 to 1.
-             */
-            from_finished: number | null;
         };
         /**
          * ForecastRange

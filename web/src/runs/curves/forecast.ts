@@ -17,7 +17,7 @@ export function sentencesOf(forecast: Forecast, run: Run): string[] {
   const { reached, too_early, more_units, more_seconds } = forecast;
   if (reached) {
     return [
-      `${target} of tests succeeded after ${units(rough(reached.cost))}, in episode ${number(reached.episode)}.`,
+      `${target} of tests succeeded after ${units(reached.cost)}, in episode ${number(reached.episode)}.`,
     ];
   }
   const ended =
@@ -35,9 +35,10 @@ export function sentencesOf(forecast: Forecast, run: Run): string[] {
 function unitsLeft({ low, median, high }: ForecastRange, missed: number, target: string): string {
   const never = `In ${percent(Math.round(missed * 100) / 100)} of the possible futures it never gets there.`;
   if (low === null) return `${target} of tests will probably never succeed. ${never}`;
-  if (median === null)
-    return `At least ${units(rough(low))} more until ${target} of tests succeed, if ever. ${never}`;
-  const about = `About ${number(rough(median))} more ${rough(median) === 1 ? 'unit' : 'units'}`;
+  if (median === null) {
+    return `At least ${number(rough(low))} more ${noun(low)} until ${target} of tests succeed, if ever. ${never}`;
+  }
+  const about = `About ${number(rough(median))} more ${noun(median)}`;
   if (high === null)
     return `${about} (${number(rough(low))} or more) until ${target} of tests succeed. ${never}`;
   return `${about} (${number(rough(low))} to ${number(rough(high))}) until ${target} of tests succeed.`;
@@ -57,7 +58,9 @@ function budgetLeft({ budget, spent }: Run, { high }: ForecastRange): string[] {
 export function sourcesOf({ more_units, same_configuration, other_configurations }: Forecast): string | null {
   if (more_units === null) return null;
   const others =
-    other_configurations > 0 ? ` and ${count(other_configurations, 'other')} of its domain and algorithm` : '';
+    other_configurations > 0
+      ? ` and ${count(other_configurations, 'other')} of its domain and algorithm`
+      : '';
   const finished =
     same_configuration + other_configurations === 0
       ? ''
@@ -77,6 +80,10 @@ export function goalOf(forecast: Forecast, spent: number, xAxis: XAxisName): Goa
   const isCut = high === null || spent + high > most;
   const middle = median === null ? null : spent + median;
   return { y, label, span: { from: spent + low, to, middle, label: isCut ? 'forecast →' : 'forecast' } };
+}
+
+function noun(amount: number): string {
+  return rough(amount) === 1 ? 'unit' : 'units';
 }
 
 /** Return a number with two digits that count. */
