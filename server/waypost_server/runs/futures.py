@@ -241,7 +241,7 @@ def _shaped(
                     for level, mean in means.items():
                         lag = relative_pace * pace * max(TRAILING / 2, TRAILING - len(tests.units))
                         at = middle * spent * (mean / (top - mean)) ** (1 / steepness) if mean < top else math.inf
-                        units = max(at, spent) + lag if at > spent else spent + lag
+                        units = max(at, spent) + lag
                         outlook[level] = units if units <= _HORIZON * spent else math.inf
                     yield _Guess(share, fit, outlook, math.inf, False)
 

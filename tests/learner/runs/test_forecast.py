@@ -21,7 +21,8 @@ def span(low: float | None, median: float | None, high: float | None) -> dict[st
     [
         (
             {"more_units": span(81.4, 1234.5, 2560), "more_seconds": span(80, 1200, 2000)},
-            "About 1,200 more units (81 to 2,600) until 90% of tests succeed. For the annotators, this is 20 min of work.",
+            "About 1,200 more units (81 to 2,600) until 90% of tests succeed. "
+            "For the annotators, this is 20 min of work.",
         ),
         (
             {"more_units": span(81, 123, None), "missed": 0.16},
