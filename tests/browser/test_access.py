@@ -40,8 +40,8 @@ def test_work_is_accessible(open_page: Open, learner: Learner, scheme: str) -> N
             page.keyboard.press("d")
         assert violations(page) == [], kind
         page.keyboard.press("f" if "inspect" in kind else "Shift+Enter")
-    wait_for_heading(page, "Waiting for the learner")
-    expect(page.get_by_text("The next query appears here")).to_be_visible()
+    wait_for_heading(page, "No question right now")
+    expect(page.get_by_text("The next question appears here")).to_be_visible()
     assert violations(page) == [], "waiting"
 
 
@@ -176,7 +176,7 @@ def test_the_focus_goes_to_the_heading_of_another_view_and_stays_in_the_same_one
     wait_for_heading(page, "Practice")
     page.goto(f"/work?run={run}")
     wait_for_heading(page, ask("inspect_full")["question"])
-    page.get_by_role("button", name="Pass").focus()
+    page.get_by_role("button", name="Yes, it worked").focus()
     page.keyboard.press("f")
     wait_for_heading(page, "The next one")
 
@@ -187,7 +187,7 @@ def test_nothing_is_cut_off(open_page: Open, learner: Learner, size: tuple[int, 
     learner.ask(run, ask("inspect_lo"))
     page = open_page(f"/work?run={run}", size={"width": size[0], "height": size[1]})
     wait_for_heading(page, ask("inspect_lo")["question"])
-    for name in ("Pass", "Fail", "Skip", "Take back"):
+    for name in ("Yes, it worked", "No, it failed", "Skip", "Take back"):
         expect(page.get_by_role("button", name=name)).to_be_in_viewport(ratio=1)
     expect(page.get_by_role("slider", name="Step")).to_be_in_viewport(ratio=1)
     assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")

@@ -112,7 +112,7 @@ def test_names_and_questions_and_states_are_only_ever_text(page: Page, learner: 
         ask("label_full", 1, **asked),
         ask("inspect_lo", 2, **asked | {"context": segments, "segments": segments[:1]}),
     ):
-        wait_for_heading(page, "Waiting for the learner")
+        wait_for_heading(page, "No question right now")
         learner.ask(run, one)
         wait_for_heading(page, question)
         nothing_ran(page)

@@ -50,7 +50,8 @@ def test_annotators_watch_a_run_but_not_its_single_queries(open_page: Open, lear
     wait_for_heading(open_page(f"/work?run={run}"), ask("inspect_full")["question"])
     page = open_page(f"/runs/{run}")
     expect(page.get_by_role("slider", name="Success on unseen instances")).to_be_visible()
-    expect(page.get_by_role("listitem").filter(has_text="Inspect_FULL, ep. 0")).to_be_visible()
+    expect(page.get_by_role("listitem").filter(has_text="Did the whole task work?, ep. 0")).to_be_visible()
+    expect(page.get_by_text(re.compile("reserved|of 100 units"))).to_have_count(0)  # they do not pay
     sections = page.get_by_role("navigation", name="This run").get_by_role("link")
     expect(sections).to_have_text(["Overview", "Overlay"])
     expect(page.get_by_role("heading", name="Recent queries")).to_be_hidden()
@@ -67,7 +68,7 @@ def test_pause_and_resume(open_page: Open, learner: Learner) -> None:
     expect(page.get_by_role("button", name="Resume")).to_be_visible()
     assert learner.call("GET", f"/runs/{run}")["state"] == "paused"
     worker = open_page(f"/work?run={run}")
-    wait_for_heading(worker, "Waiting for the learner")
+    wait_for_heading(worker, "No question right now")
     page.get_by_role("button", name="Resume").click()
     wait_for_heading(worker, ask("inspect_full")["question"])
 
@@ -265,7 +266,7 @@ def test_reading_one_chart_as_a_table_leaves_its_neighbours_drawing_beside_its_o
     worker = open_page(f"/work?run={run}")
     wait_for_heading(worker, ask("inspect_full")["question"])
     worker.keyboard.press("p")
-    wait_for_heading(worker, "Waiting for the learner")
+    wait_for_heading(worker, "No question right now")
     learner.report(run, [False, True])
     page = open_page(f"/runs/{run}", role="viewer")
 

@@ -3288,6 +3288,11 @@ export interface components {
              */
             answers_today: number;
             /**
+             * Active Seconds Today
+             * @description The user's working time for the answers since midnight UTC, without idle time, in seconds.
+             */
+            active_seconds_today: number;
+            /**
              * Median Seconds
              * @description The median working time of the last 1,000 of these answers, without idle time, in seconds.
              */

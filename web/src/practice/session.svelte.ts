@@ -1,12 +1,19 @@
 // A practice session: one query after the other, each with feedback. Nothing is stored.
 import { api, unwrap, wordsOf } from '../api/client';
-import type { Answer, Answerable, Feedback, Practice, Vocabulary } from '../api/types';
+import type { Answer, Answerable, AnswerableKind, Feedback, Practice, Vocabulary } from '../api/types';
+import { firstQueries } from './first';
 
-export type Phase = 'loading' | 'intro' | 'question' | 'feedback' | 'done' | 'failed';
+/** `useless`: the first practice has nothing that the person will be asked. */
+export type Phase = 'loading' | 'intro' | 'example' | 'question' | 'feedback' | 'done' | 'failed' | 'useless';
 
 interface PracticeQuery {
   readonly id: number;
   readonly ask: Answerable;
+}
+
+interface WorkedExample {
+  readonly ask: Answerable;
+  readonly feedback: Feedback;
 }
 
 export class PracticeSession {
@@ -16,18 +23,33 @@ export class PracticeSession {
   feedback: Feedback | null = $state.raw(null);
   problem: string | null = $state(null);
   results: readonly boolean[] = $state.raw([]); // by place, of this round
+  example: WorkedExample | null = $state.raw(null); // of the phase `example`
   #practice: Practice | null = $state.raw(null);
+  readonly #isFirst: boolean;
+  readonly #asks = new Map<number, Answerable>(); // of all practice queries
+  readonly #explained = new Set<AnswerableKind>(); // the kinds whose worked example was shown
 
   readonly total = $derived(this.#queries().length);
   readonly right = $derived(this.results.filter(Boolean).length);
   readonly query: PracticeQuery | null = $derived(this.#queries()[this.place] ?? null);
   readonly vocabulary: Vocabulary | null = $derived(this.#practice?.vocabulary ?? null);
 
+  /** A session of all practice queries, or the first one of a person, with worked examples. */
+  constructor(isFirst: boolean) {
+    this.#isFirst = isFirst;
+  }
+
   async load(): Promise<void> {
     this.phase = 'loading';
     try {
-      this.#practice = await unwrap(api.GET('/api/v1/practice'));
-      this.phase = 'intro';
+      const practice = await unwrap(api.GET('/api/v1/practice'));
+      for (const { id, ask } of practice.queries) if (ask.kind !== 'hier_demo') this.#asks.set(id, ask);
+      const outlook = this.#isFirst ? await unwrap(api.GET('/api/v1/outlook')) : null;
+      const queries = outlook === null ? practice.queries : firstQueries(practice, outlook);
+      this.#practice = { ...practice, queries };
+      if (!this.#isFirst) this.phase = 'intro';
+      else if (this.total === 0) this.phase = 'useless';
+      else this.start();
     } catch (error) {
       this.problem = wordsOf(error);
       this.phase = 'failed';
@@ -38,6 +60,12 @@ export class PracticeSession {
   start(): void {
     this.results = [];
     this.#show(0);
+  }
+
+  /** After a worked example, ask the question. */
+  begin(): void {
+    this.example = null;
+    this.phase = 'question';
   }
 
   async submit(answer: Answer): Promise<void> {
@@ -74,7 +102,19 @@ export class PracticeSession {
     this.shown += 1;
     this.feedback = null;
     this.problem = null;
-    this.phase = 'question';
+    this.example = this.#exampleFor(this.query?.ask.kind);
+    this.phase = this.example === null ? 'question' : 'example';
+  }
+
+  /** Return the worked example of a kind, if this is the first practice and its first question of the kind. */
+  #exampleFor(kind: AnswerableKind | undefined): WorkedExample | null {
+    if (!this.#isFirst || kind === undefined || this.#explained.has(kind)) return null;
+    this.#explained.add(kind);
+    for (const { query, feedback } of this.#practice?.examples ?? []) {
+      const ask = this.#asks.get(query);
+      if (ask?.kind === kind) return { ask, feedback };
+    }
+    return null;
   }
 
   /** Return the queries of the practice file except demonstrations, which need a learner's environment. */

@@ -5,7 +5,8 @@ export type Route =
   | WorkRoute
   | RunsRoute
   | { readonly view: 'gold'; readonly run: string }
-  | { readonly view: 'practice' | 'people' | 'me' }
+  | { readonly view: 'people' | 'me' }
+  | PracticeRoute
   | { readonly view: 'person'; readonly user: number }
   | { readonly view: 'nowhere' };
 
@@ -14,6 +15,13 @@ export interface WorkRoute {
   readonly view: 'work';
   readonly run: string | null;
   readonly without: string | null;
+}
+
+/** Practice. The first one of a person is short, and leads to a work view. */
+export interface PracticeRoute {
+  readonly view: 'practice';
+  readonly first: boolean;
+  readonly work: string; // the address of that work view
 }
 
 export type RunsRoute =
@@ -33,13 +41,19 @@ export function parseRoute(path: string, search: string): Route {
   if (rest.length > 0) return { view: 'nowhere' };
   if (first === 'people' && /^[1-9]\d{0,14}$/.test(second)) return { view: 'person', user: Number(second) };
   if (second !== '') return { view: 'nowhere' };
-  if (first === 'practice' || first === 'people' || first === 'me') return { view: first };
+  if (first === 'people' || first === 'me') return { view: first };
+  if (first === 'practice') return practiceRoute(search);
   if (first === 'login') return { view: 'login' };
   if (first === 'work' || first === '') {
     const parameters = new URLSearchParams(search);
     return { view: 'work', run: parameters.get('run'), without: parameters.get('without') };
   }
   return { view: 'nowhere' };
+}
+
+function practiceRoute(search: string): PracticeRoute {
+  const isFirst = new URLSearchParams(search).has('first');
+  return { view: 'practice', first: isFirst, work: `/work${searchWith(search, { first: null })}` };
 }
 
 function runsRoute(run: string, section = '', query = '', ...more: string[]): RunsRoute | null {

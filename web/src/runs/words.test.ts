@@ -2,7 +2,8 @@
 import { flushSync, mount, unmount } from 'svelte';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { api } from '../api/client';
-import type { Costs, Run, RunList as Runs } from '../api/types';
+import type { Costs, Me, Run, RunList as Runs } from '../api/types';
+import { shell } from '../ui/shell.svelte';
 import LiveMark from './LiveMark.svelte';
 import RunList from './RunList.svelte';
 import Tiles from './Tiles.svelte';
@@ -25,6 +26,7 @@ describe('one thing is not counted as many', () => {
   });
   afterEach(async () => {
     if (shown) await unmount(shown);
+    shell.me = null;
     vi.restoreAllMocks();
   });
 
@@ -40,6 +42,9 @@ describe('one thing is not counted as many', () => {
       first_at: { '0.8': { cost: 1, episode: 3 } },
     } as unknown as Costs;
     shown = mount(Tiles, { target: document.body, props: { run: { ...RUN, budget: 1 }, costs } });
+    flushSync();
+    expect(text()).not.toContain('unit'); // an annotator does not pay
+    shell.me = { role: 'viewer' } as unknown as Me;
     flushSync();
     for (const words of ['of 1 unit', '1 unit reserved', '1 unit on LO labels', '1 unit ep. 3']) {
       expect(text()).toContain(words);
