@@ -82,6 +82,7 @@ ACCESS: Mapping[str, Access] = {
     "getCosts": _ALL,
     "getFrame": _ALL,
     "listAtWork": _ALL,
+    "getOutlook": _ALL,
     "streamEvents": _ALL,
     "streamChanges": _ALL,
     "listQueries": _WATCH,

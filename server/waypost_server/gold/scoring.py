@@ -63,18 +63,36 @@ def check(ask: wire.Ask, known: wire.Known, names: checks.Names, at: Location) -
             names.check_actions([*chain.from_iterable(known.actions)], [*at, "actions"])
 
 
+def solved(known: wire.Known) -> list[wire.Mark]:
+    """Return the labels of a right answer, each marked as right."""
+    right = _right(known)
+    return _marks([choices[0] for choices in right], right)
+
+
+def _right(known: wire.Known) -> Sequence[Sequence[str]]:
+    match known:
+        case wire.KnownVerdict():
+            return [[known.verdict]]
+        case wire.KnownSubgoals():
+            return known.subgoals
+        case wire.KnownSegment():
+            return [*known.actions, [NOT_DONE if known.end is None else DONE]]
+        case wire.KnownActions():
+            return known.actions
+
+
 def marks(known: wire.Known, answer: wire.Answer) -> list[wire.Mark]:
     """Compare each label of an answer with the known answer. The answer must fit the query."""
     match known, answer:
         case wire.KnownVerdict(), wire.InspectAnswer():
-            return _marks([answer.verdict], [[known.verdict]])
+            return _marks([answer.verdict], _right(known))
         case wire.KnownSubgoals(), wire.LabelHiAnswer():
-            return _marks(answer.subgoals, known.subgoals)
+            return _marks(answer.subgoals, _right(known))
         case wire.KnownSegment(), wire.LabelLoAnswer():
-            right = [*known.actions, [NOT_DONE if known.end is None else DONE]]
+            right = _right(known)
             return _marks(_of_states(answer)[: len(right)], right)
         case wire.KnownActions(), wire.LabelFullAnswer():
-            return _marks(answer.actions, known.actions)
+            return _marks(answer.actions, _right(known))
         case _:
             raise TypeError(f"{answer.kind} answers no {known.kind}")
 

@@ -87,6 +87,7 @@ MATRIX: dict[str, set[str]] = {
     "streamEvents": EVERYBODY,
     "streamChanges": EVERYBODY,
     "listAtWork": EVERYBODY,
+    "getOutlook": EVERYBODY,
     "listQueryRows": WATCHERS,
     "listLedger": WATCHERS,
     "listRecords": WATCHERS,
