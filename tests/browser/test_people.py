@@ -2,7 +2,7 @@
 
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import Open
-from tests.browser.kit import Complaints, Learner, ask, wait_for_heading
+from tests.browser.kit import Complaints, Learner, ask, login_link, wait_for_heading
 from tests.browser.test_access import violations
 
 from waypost_server.serving import Served
@@ -35,7 +35,16 @@ def test_an_administrator_lets_somebody_in_and_sends_them_away(
     link = shown_once(admin, "Login link for zoe of the lab")
     assert violations(admin) == []
     zoe = open_page(link, role=None)
+    zoe.get_by_text("Worked example").wait_for()  # somebody new practices first
+    assert violations(zoe) == [], "worked example"
+    zoe.keyboard.press("Enter")
+    wait_for_heading(zoe, "Did it do the whole task?")
+    zoe.keyboard.press("y")
+    wait_for_heading(zoe, "Right")
+    zoe.keyboard.press("Escape")
     wait_for_heading(zoe, "No question right now")
+    zoe.goto(login_link(learner.served, "zoe of the lab", "annotator"))
+    wait_for_heading(zoe, "No question right now")  # the first practice comes once
     admin.get_by_role("link", name="zoe of the lab").click()
     admin.get_by_role("combobox", name="Role").select_option("viewer")
     expect(admin.get_by_text("Sees everything except people, and changes nothing.")).to_be_visible()

@@ -7,6 +7,7 @@ answer, as many queries of the run are open as before.
 import json
 import statistics
 from collections.abc import Iterator, Sequence
+from itertools import islice
 from typing import Any
 
 from sqlalchemy import Row, case, func, or_, select
@@ -28,7 +29,7 @@ _ORDER = case((runs.c.state == "running", 0), (runs.c.state == "paused", 1), els
 def outlook(tx: Tx, run: str | None) -> wire.Outlook:
     """Return the runs of this server, those first that may ask next; `run` comes before all others."""
     chosen = select(runs).where(runs.c.gold_of.is_(None)).limit(MOST_RUNS)
-    order = [_ORDER, runs.c.created_at.desc()]
+    order: list[Any] = [_ORDER, runs.c.created_at.desc()]
     if run is not None:
         order.insert(0, case((runs.c.id == run, 0), else_=1))
     return wire.Outlook(
@@ -41,7 +42,7 @@ def _of_run(tx: Tx, row: Row[Any]) -> wire.RunOutlook:
     latest = select(events).where(events.c.run_id == row.id).order_by(events.c.id.desc()).limit(MOST_EVENTS)
     changes = tx.conn.execute(latest).all()
     n_open = _count(tx, runs.c.id == row.id)
-    waits = [wait for wait, _ in zip(_waits(changes, n_open), range(MOST_WAITS), strict=False)]
+    waits = list(islice(_waits(changes, n_open), MOST_WAITS))
     names = vocabulary_of(row.vocabulary)
     asked = {json.loads(change.data)["kind"] for change in changes if change.event == "asked"}
     return wire.RunOutlook(
