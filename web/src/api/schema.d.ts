@@ -511,6 +511,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/outlook": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Outlook
+         * @description Return what the learners do now and when they will ask, for annotators who wait; `run` is the first run.
+         *
+         *     Every role may call it.
+         */
+        get: operations["getOutlook"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{run}/export": {
         parameters: {
             query?: never;
@@ -3432,6 +3454,22 @@ export interface components {
             agreement: number | null;
         };
         /**
+         * Outlook
+         * @description What an annotator without a query can expect, sent by the server.
+         */
+        Outlook: {
+            /**
+             * Open
+             * @description The number of unanswered queries of all running runs, rounded up to tens; 1,000 for more.
+             */
+            open: number;
+            /**
+             * Runs
+             * @description The newest runs, at most six: running ones first, then paused ones, then finished ones.
+             */
+            runs: components["schemas"]["RunOutlook"][];
+        };
+        /**
          * PastAnswer
          * @description An answer that was given at some time, sent by the server. Answers never change.
          */
@@ -3520,6 +3558,11 @@ export interface components {
             vocabulary: components["schemas"]["Vocabulary"];
             /** Queries */
             queries: components["schemas"]["PracticeQuery"][];
+            /**
+             * Examples
+             * @description The last query of each kind, for the kinds that have several queries.
+             */
+            examples: components["schemas"]["WorkedExample"][];
         };
         /**
          * PracticeAnswer
@@ -4194,6 +4237,53 @@ export interface components {
             state: "running" | "paused" | "finished";
         };
         /**
+         * RunOutlook
+         * @description What the learner of a run does, and when it will ask again; sent by the server.
+         */
+        RunOutlook: {
+            /**
+             * Run
+             * @description The id of the run.
+             */
+            run: string;
+            /**
+             * Name
+             * @description The name of the run.
+             */
+            name: string;
+            /**
+             * Domain
+             * @description The name of the run's domain.
+             */
+            domain: string;
+            /**
+             * Kinds
+             * @description The kinds of query that the learner asked lately.
+             */
+            kinds: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full")[];
+            /**
+             * Doing
+             * @description What the learner does: it waits for answers (`asking`), learns from them (`training`), or acts until it has something to ask (`rolling_out`); or the run is paused or finished.
+             * @enum {string}
+             */
+            doing: "asking" | "training" | "rolling_out" | "paused" | "finished";
+            /**
+             * Seconds
+             * @description How long ago the run changed last, in seconds.
+             */
+            seconds: number;
+            /**
+             * Usual Seconds
+             * @description The median time from the last answer to the next query, over the last 20 times that no query was open, in seconds; null before the first.
+             */
+            usual_seconds: number | null;
+            /**
+             * Open
+             * @description The number of unanswered queries, rounded up to tens; 1,000 for more.
+             */
+            open: number;
+        };
+        /**
          * RunPatch
          * @description Changes of a run. Absent fields do not change; a null budget removes the limit.
          */
@@ -4613,6 +4703,19 @@ export interface components {
              */
             timestamp: string;
             data: components["schemas"]["RunNews"];
+        };
+        /**
+         * WorkedExample
+         * @description A practice query with a correct answer, sent by the server; it is shown before others of its kind are asked.
+         */
+        WorkedExample: {
+            /**
+             * Query
+             * @description The id of the practice query.
+             */
+            query: number;
+            /** @description A correct answer, and the reason for each label. */
+            feedback: components["schemas"]["Feedback"];
         };
         /**
          * PlayMoves
@@ -6816,6 +6919,64 @@ export interface operations {
             };
             /** @description Not found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getOutlook: {
+        parameters: {
+            query?: {
+                run?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Outlook"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -45,7 +45,15 @@ export interface Binding {
 type Group = 'Answer' | 'Player' | 'Task' | 'General';
 
 /** Every mode: what is on the screen, which decides what the keys do. */
-export const MODES = [...ANSWERABLE, 'hier_demo', 'flat_demo', 'waiting', 'feedback', 'example', 'between'] as const;
+export const MODES = [
+  ...ANSWERABLE,
+  'hier_demo',
+  'flat_demo',
+  'waiting',
+  'feedback',
+  'example',
+  'between',
+] as const;
 export type Mode = (typeof MODES)[number];
 
 /** Return the bindings of a mode. If a subgoal or an action has the key of another command, that command loses the key. */
