@@ -39,7 +39,8 @@ export function firstQueries(practice: Practice, outlook: Outlook): Practice['qu
 export const HOW: Readonly<Record<AnswerableKind, string>> = {
   inspect_full: 'Watch the path to its end. Answer yes if the task is done there.',
   inspect_lo: 'Only the last, bright segment counts. Answer yes if it did what it tried.',
-  label_hi: 'For each segment, choose the subgoal that was right where the segment begins. Keep each right choice.',
+  label_hi:
+    'For each segment, choose the subgoal that was right where the segment begins. Keep each right choice.',
   label_lo:
     'For each step, choose the action that was right. Keep each right one. Say where the segment should have ended.',
   label_full: 'For each step, choose the action that was right. Keep each right one.',

@@ -24,7 +24,11 @@ it.each([
   ['/people/0x1', '', { view: 'nowhere' }],
   ['/me', '', { view: 'me' }],
   ['/practice', '', { view: 'practice', first: false, work: '/work' }],
-  ['/practice', '?first=yes&without=label_lo', { view: 'practice', first: true, work: '/work?without=label_lo' }],
+  [
+    '/practice',
+    '?first=yes&without=label_lo',
+    { view: 'practice', first: true, work: '/work?without=label_lo' },
+  ],
   ['/else', '', { view: 'nowhere' }],
 ])('%s%s leads somewhere', (path, search, route) => {
   expect(parseRoute(path, search)).toEqual(route);
