@@ -47,6 +47,7 @@ const PRINTED: Readonly<Record<string, string>> = {
   ' ': 'Space',
   Backspace: '⌫',
   Enter: '↵',
+  Escape: 'Esc',
 };
 
 /** Return how a key is printed on a button. */

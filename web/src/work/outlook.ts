@@ -12,7 +12,8 @@ export function openWords(open: number): string {
 }
 
 const DOING: Readonly<Record<RunOutlook['doing'], string>> = {
-  asking: 'The learner waits for answers to questions that others have now, or that you skipped or leave to others.',
+  asking:
+    'The learner waits for answers to questions that others have now, or that you skipped or leave to others.',
   training: 'The learner is training on the answers.',
   rolling_out: 'The learner is trying its task, until it has something to ask.',
   paused: 'The run is paused. The learner asks again when somebody resumes it.',
