@@ -168,12 +168,17 @@ def test_whoever_waits_is_told_what_the_learner_does_and_how_long_that_usually_t
     report(service, run, result(0, True))
     assert outlook()["doing"] == "rolling_out"
     service.learner.ask(run, query(episode=1))
-    changed(service, "UPDATE events SET created_at = 10.0 * id")  # used, used, episode, asked
-    assert (outlook()["doing"], outlook()["usual_seconds"]) == ("asking", 40)
+    times = text("SELECT max(created_at) FROM events WHERE event = :event")
+    asked_at, answered_at = (
+        service.db.write_now(lambda tx, event=event: tx.conn.execute(times, {"event": event}).scalar_one())
+        for event in ("asked", "answered")
+    )
+    usual = pytest.approx(asked_at - answered_at)
+    assert (outlook()["doing"], outlook()["usual_seconds"]) == ("asking", usual)
     assert outlook()["kinds"] == ["inspect_full", "label_hi"]
     for state in ("paused", "finished"):
         service.learner.patch(run, state=state)
-        assert (outlook()["doing"], outlook()["usual_seconds"]) == (state, 40)
+        assert (outlook()["doing"], outlook()["usual_seconds"]) == (state, usual)
     other = service.learner.create_run(name="newer")
     assert [one["run"] for one in service.annotator.get("/outlook")["runs"]] == [other, run]
     assert [one["run"] for one in service.annotator.get(f"/outlook?run={run}")["runs"]] == [run, other]
