@@ -23,7 +23,7 @@ describe('a key of one’s own', () => {
   it('replaces the default keys', () => {
     const bindings = remapped(inspect, { pass: 'j' });
     expect(of(bindings, 'pass').keys).toEqual(['j']);
-    expect(of(bindings, 'fail').keys).toEqual(['f']);
+    expect(of(bindings, 'fail').keys).toEqual(['n', 'f']);
   });
 
   it('belongs to the name of a subgoal or action, at any place in the vocabulary', () => {

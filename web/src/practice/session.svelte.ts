@@ -26,8 +26,7 @@ export class PracticeSession {
   example: WorkedExample | null = $state.raw(null); // of the phase `example`
   #practice: Practice | null = $state.raw(null);
   readonly #isFirst: boolean;
-  readonly #asks = new Map<number, Answerable>(); // of all practice queries
-  readonly #explained = new Set<AnswerableKind>(); // the kinds whose worked example was shown
+  #examples: readonly WorkedExample[] = []; // those that were not shown yet
 
   readonly total = $derived(this.#queries().length);
   readonly right = $derived(this.results.filter(Boolean).length);
@@ -43,7 +42,7 @@ export class PracticeSession {
     this.phase = 'loading';
     try {
       const practice = await unwrap(api.GET('/api/v1/practice'));
-      for (const { id, ask } of practice.queries) if (ask.kind !== 'hier_demo') this.#asks.set(id, ask);
+      this.#examples = this.#isFirst ? workedExamples(practice) : [];
       const outlook = this.#isFirst ? await unwrap(api.GET('/api/v1/outlook')) : null;
       const queries = outlook === null ? practice.queries : firstQueries(practice, outlook);
       this.#practice = { ...practice, queries };
@@ -108,13 +107,9 @@ export class PracticeSession {
 
   /** Return the worked example of a kind, if this is the first practice and its first question of the kind. */
   #exampleFor(kind: AnswerableKind | undefined): WorkedExample | null {
-    if (!this.#isFirst || kind === undefined || this.#explained.has(kind)) return null;
-    this.#explained.add(kind);
-    for (const { query, feedback } of this.#practice?.examples ?? []) {
-      const ask = this.#asks.get(query);
-      if (ask?.kind === kind) return { ask, feedback };
-    }
-    return null;
+    const found = this.#examples.find(({ ask }) => ask.kind === kind) ?? null;
+    this.#examples = this.#examples.filter((example) => example !== found);
+    return found;
   }
 
   /** Return the queries of the practice file except demonstrations, which need a learner's environment. */
@@ -122,4 +117,11 @@ export class PracticeSession {
     const queries = this.#practice?.queries ?? [];
     return queries.flatMap(({ id, ask }) => (ask.kind === 'hier_demo' ? [] : [{ id, ask }]));
   }
+}
+
+function workedExamples(practice: Practice): WorkedExample[] {
+  return practice.examples.flatMap(({ query, feedback }) => {
+    const ask = practice.queries.find(({ id }) => id === query)?.ask;
+    return ask === undefined || ask.kind === 'hier_demo' ? [] : [{ ask, feedback }];
+  });
 }
