@@ -96,7 +96,7 @@ def test_only_who_may_pauses(open_page: Open, learner: Learner, role: wire.Role)
 def test_the_list_leads_to_the_run_and_back(open_page: Open, learner: Learner) -> None:
     run = learner.create_run("on the list", budget=50.0)
     learner.report(run, [True])
-    page = open_page("/runs")
+    page = open_page("/runs", role="viewer")
     row = page.get_by_role("row", name="on the list")
     expect(row).to_contain_text("1/500")
     expect(row).to_contain_text("0/50")

@@ -81,7 +81,7 @@ def test_a_segment_is_selected_and_its_subgoal_chosen_on_the_map(learner: Learne
     expect(current).to_contain_text("1")
     hand.click((2, 14))  # the target
     expect(current).to_contain_text("2")
-    hand.press("Keep rest, submit")
+    hand.press("Keep the rest, send")
     assert learner.answer_of(query)["subgoals"] == ["go_to_target", "north", "east", "north", "south"]
 
 
@@ -125,7 +125,7 @@ def test_the_right_way_is_drawn_through_several_segments(learner: Learner, open_
 def test_a_way_beside_the_path_says_why_nothing_is_labeled(learner: Learner, open_with: OpenWith) -> None:
     _, page, hand = begin(learner, open_with, ask("label_lo"))
     hand.draw((14, 13), (14, 15))
-    expect(page.get_by_text("This way passes nothing that the query asks about.")).to_be_visible()
+    expect(page.get_by_text("This way passes nothing that the question is about.")).to_be_visible()
     hand.draw((8, 1), (6, 1), (8, 1))  # back at its beginning, it is given up
     expect(page.get_by_text("0 of 7")).to_be_visible()
 

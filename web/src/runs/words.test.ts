@@ -53,6 +53,29 @@ describe('one thing is not counted as many', () => {
   });
 });
 
+describe('a server without runs', () => {
+  let shown: Record<string, unknown> | undefined;
+  afterEach(async () => {
+    if (shown) await unmount(shown);
+    shell.me = null;
+    vi.restoreAllMocks();
+  });
+
+  it.each([
+    ['admin', true],
+    ['learner', true],
+    ['annotator', false],
+    ['viewer', false],
+  ] as const)('says which command starts one to those who may run it (%s: %s)', async (role, may) => {
+    const found: Runs = { runs: [], total: 0 };
+    vi.spyOn(api, 'GET').mockResolvedValue({ data: found, response: new Response() } as never);
+    shell.me = { role } as unknown as Me;
+    shown = mount(RunList, { target: document.body });
+    await vi.waitFor(() => expect(document.querySelector('h1')?.textContent).toBe('No runs yet'));
+    expect(document.body.textContent.includes('waypost train')).toBe(may);
+  });
+});
+
 describe('the live mark', () => {
   let mark: Record<string, unknown> | undefined;
   afterEach(async () => {
