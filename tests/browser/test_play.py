@@ -10,7 +10,7 @@ from playwright.sync_api import Locator, Page, expect
 from sqlalchemy import update
 from tests.browser.conftest import Open
 from tests.browser.kit import LETTERS, START, Complaints, Json, Learner, maze, wait_for_heading
-from tests.browser.test_access import SMALL, violations
+from tests.browser.test_access import SIZES, violations
 
 from waypost.client import Client
 from waypost_learner.algorithms.queries import HierDemo
@@ -220,7 +220,7 @@ def test_what_does_not_succeed_is_sent_only_after_a_question(
     run = learner.create_run("burnt")
     [query] = learner.ask(run, ask())
     stage(learner.served, query)
-    page = open_page(f"/work?run={run}", scheme=scheme, size=SMALL)
+    page = open_page(f"/work?run={run}", scheme=scheme, size=SIZES[0])
     is_here(page)
     way(page, WAY[:4])
     assert violations(page) == [], "under way"
