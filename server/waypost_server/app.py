@@ -27,6 +27,7 @@ from waypost_server.play import routes as play
 from waypost_server.play.relay import Relay
 from waypost_server.queries import frame_routes as frames
 from waypost_server.queries import routes as queries
+from waypost_server.review import routes as review
 from waypost_server.runs import routes as runs
 from waypost_server.settings import Settings
 from waypost_server.users import routes as users
@@ -41,7 +42,22 @@ from waypost_server.webhooks.courier import delivering
 API = "/api/v1"
 GZIP_BYTES = 8_192  # smaller responses are not compressed
 # Routes are tried in this order, so those that are called most come first.
-ROUTED = (answers, leases, queries, runs, play, watch, event_streams, frames, users, sessions, gold, practice, webhooks)
+ROUTED = (
+    answers,
+    leases,
+    queries,
+    runs,
+    play,
+    watch,
+    event_streams,
+    frames,
+    users,
+    sessions,
+    gold,
+    review,
+    practice,
+    webhooks,
+)
 
 log = logging.getLogger("waypost")
 

@@ -6,6 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field, JsonValue, SerializeAsAny
 
 __all__ = [
     "KINDS",
+    "Disagreement",
     "FrameHash",
     "GoldRate",
     "Json",
@@ -25,6 +26,7 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 Verdict = Literal["pass", "fail"]
 RunState = Literal["running", "paused", "finished"]
 QueryState = Literal["open", "leased", "answered", "cancelled"]
+Disagreement = Literal["suggestion", "gold"]
 Role = Literal["admin", "learner", "annotator", "viewer"]
 
 Json = Annotated[JsonValue, SerializeAsAny()]

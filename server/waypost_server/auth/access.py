@@ -61,6 +61,10 @@ ACCESS: Mapping[str, Access] = {
     "addGold": OWN_RUN,
     "retireGold": OWN_RUN,
     "listGold": _LEARN,
+    # review
+    "listReview": OWN_RUN,
+    "comment": OWN_RUN,
+    "sendBack": OWN_RUN,
     # assignments
     "lease": _ANSWER,
     "leaseBatch": _ANSWER,
@@ -98,6 +102,7 @@ ACCESS: Mapping[str, Access] = {
     "logout": _ALL,
     "logoutEverywhere": _ALL,
     "myNumbers": _ALL,
+    "myReturned": _ALL,
     "myTokens": _ALL,
     "mySessions": _ALL,
     "createToken": Access(ANYONE, own="token"),

@@ -16,6 +16,7 @@ from waypost_server.db.tables import (
     IS_LIVE,
     answers,
     assignments,
+    comments,
     gold,
     gold_showings,
     ledger,
@@ -25,7 +26,7 @@ from waypost_server.db.tables import (
 )
 from waypost_server.db.transaction import Tx
 
-APPEND_ONLY = ("answers", "ledger", "events")  # tables whose rows triggers keep as they are
+APPEND_ONLY = ("answers", "ledger", "events", "comments")  # tables whose rows triggers keep as they are
 SHOWN = 5  # faults that a result names
 
 
@@ -160,6 +161,14 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         .where(runs.c.gold_of.is_(None), queries.c.run_priority != runs.c.priority),
     ),
     (
+        "An answer that was sent back belongs to the query of the comment, and counts no more.",
+        "comment",
+        select(comments.c.id)
+        .join(answers, answers.c.id == comments.c.answer_id)
+        .join(queries, queries.c.id == answers.c.query_id)
+        .where(or_(queries.c.id != comments.c.query_id, _counting)),
+    ),
+    (
         "A gold query is shown in the shadow of its run.",
         "query",
         select(gold_showings.c.query_id.label("id"))
@@ -215,7 +224,7 @@ def _schema(conn: Connection) -> list[Result]:
     missing = sorted(guards - set(conn.execute(text(names)).scalars()))
     return [
         _told("The tables, columns and indexes are those of this version.", differing),
-        _told("No statement can change an answer, an entry of the ledger, or an event.", missing),
+        _told("No statement can change an answer, an entry of the ledger, an event, or a comment.", missing),
     ]
 
 

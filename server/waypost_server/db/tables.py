@@ -126,11 +126,14 @@ queries = Table(
     Column("created_at", Float, nullable=False),
     # The user who gave the last answer in this episode before the query was asked; leasing then reads no answers.
     Column("follows_user_id", RowId, ForeignKey("users.id")),
+    # Whether the answer that counts differs from the learner's suggestion; null if one of the two is missing.
+    Column("differs", Boolean),
     one_of("kind", *KINDS),
     # open -> leased -> answered | cancelled; leased -> open: released or expired; answered -> leased: retracted.
     one_of("state", "open", "leased", "answered", "cancelled"),
     CheckConstraint("(state = 'answered') = (answer_id IS NOT NULL)", name="answered"),
     CheckConstraint("NOT used OR state = 'answered'", name="used_is_answered"),
+    CheckConstraint("differs IS NULL OR state = 'answered'", name="differs_is_answered"),
     CheckConstraint("reserve >= 0 AND revision >= 0", name="not_negative"),
     UniqueConstraint("run_id", "episode", "ordinal"),
     sqlite_autoincrement=True,
@@ -150,6 +153,8 @@ Index(
 )
 Index("ix_queries_run_state", queries.c.run_id, queries.c.state, queries.c.episode)
 Index("ix_queries_run", queries.c.run_id, queries.c.id)
+DIFFERS = queries.c.differs.is_(True)  # as the partial index says it
+Index("ix_queries_differs", queries.c.run_id, queries.c.id, sqlite_where=DIFFERS, postgresql_where=DIFFERS)
 
 assignments = Table(
     "assignments",
@@ -232,6 +237,21 @@ ledger = Table(
     ),
     Index("ix_ledger_run", "run_id", "episode", "kind"),
     Index("ix_ledger_run_id", "run_id", "id"),
+    sqlite_autoincrement=True,
+)
+
+# Append-only (enforced by a trigger): what reviewers wrote about queries.
+comments = Table(
+    "comments",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("query_id", RowId, ForeignKey("queries.id"), nullable=False),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    Column("text", Text, nullable=False),
+    Column("answer_id", RowId, ForeignKey("answers.id"), unique=True),  # the answer that was sent back with it
+    Column("created_at", Float, nullable=False),
+    CheckConstraint("length(text) BETWEEN 1 AND 2000", name="length"),
+    Index("ix_comments_query", "query_id", "id"),
     sqlite_autoincrement=True,
 )
 

@@ -63,6 +63,33 @@ def check(ask: wire.Ask, known: wire.Known, names: checks.Names, at: Location) -
             names.check_actions([*chain.from_iterable(known.actions)], [*at, "actions"])
 
 
+def labels(answer: wire.Answer) -> list[str | None]:
+    """Return the single labels of an answer, one per state or segment; None for a state after the segment's end.
+
+    A demonstration has none, because two demonstrations are not about the same states.
+    """
+    match answer:
+        case wire.InspectAnswer():
+            return [answer.verdict]
+        case wire.LabelHiAnswer():
+            return [*answer.subgoals]
+        case wire.LabelLoAnswer():
+            return _of_states(answer)
+        case wire.LabelFullAnswer():
+            return [*answer.actions]
+        case wire.HierDemoAnswer():
+            return []
+        case _:
+            assert_never(answer)
+
+
+def differ(one: wire.Answer | None, other: wire.Answer) -> bool | None:
+    """Return whether two answers to a query differ in a label that both have; None if they cannot be compared."""
+    if one is None or one.kind == "hier_demo":
+        return None
+    return any(None not in pair and pair[0] != pair[1] for pair in zip(labels(one), labels(other), strict=True))
+
+
 def marks(known: wire.Known, answer: wire.Answer) -> list[wire.Mark]:
     """Compare each label of an answer with the known answer. The answer must fit the query."""
     match known, answer:

@@ -132,6 +132,18 @@ def lock_own(tx: Tx, run: str, user: int) -> Record:
     return row
 
 
+def find_own(tx: Tx, run: str, user: int, role: wire.Role) -> Record:
+    """Return a run's row to a user who may change the run, without locking it: for operations that only read.
+
+    Raises:
+        NotFound: there is no such run.
+        Forbidden: the user may not change the run.
+    """
+    row = find(tx, run)
+    access.check_owner(tx, run, row.user_id, user, role)
+    return row
+
+
 def account(row: Record) -> Account:
     """Return the account of a locked run."""
     return Account(row.id, row.budget, row.spent, row.reserved)
