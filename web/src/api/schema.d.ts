@@ -1008,6 +1008,96 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/review": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Review
+         * @description List one page of a run's answers to review, newest query first.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         */
+        get: operations["listReview"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/queries/{query}/comments": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Comment
+         * @description Comment on a query. Annotators do not see it.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         */
+        post: operations["comment"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/queries/{query}/send-back": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Send Back
+         * @description Send an answer back that the learner has not used: refund it, and open its query again for every annotator.
+         *
+         *     Whoever gets the query next sees the comment, and the annotator who gave the answer finds it at `GET /me/returned`.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         */
+        post: operations["sendBack"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/me/returned": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * My Returned
+         * @description List the caller's answers that a reviewer sent back, newest first, each with the comment.
+         *
+         *     Every role may call it.
+         */
+        get: operations["myReturned"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/practice": {
         parameters: {
             query?: never;
@@ -1973,6 +2063,11 @@ export interface components {
             /** @description The price of the answer. */
             price: components["schemas"]["Price"];
             /**
+             * Comments
+             * @description The comments with which reviewers sent earlier answers to this query back, oldest first.
+             */
+            comments: components["schemas"]["Comment"][];
+            /**
              * Leased At
              * @description When the lease began, in seconds since the epoch.
              */
@@ -2134,6 +2229,42 @@ export interface components {
              * @description The id of the newest event of all runs.
              */
             newest: number;
+        };
+        /**
+         * Comment
+         * @description A reviewer's comment on a query, sent by the server.
+         */
+        Comment: {
+            /** Id */
+            id: number;
+            /**
+             * By
+             * @description The name of the reviewer.
+             */
+            by: string;
+            /**
+             * At
+             * @description When it was written, in seconds since the epoch.
+             */
+            at: number;
+            /** Text */
+            text: string;
+            /**
+             * Answer
+             * @description The id of the answer that was sent back with it; null for a mere comment.
+             */
+            answer: number | null;
+        };
+        /**
+         * CommentPost
+         * @description A comment on a query, sent by a reviewer. Comments never change.
+         */
+        CommentPost: {
+            /**
+             * Text
+             * @description The comment; not only spaces.
+             */
+            text: string;
         };
         /**
          * CostOfKind
@@ -3738,13 +3869,18 @@ export interface components {
         };
         /**
          * QueryHistory
-         * @description All assignments and ledger entries of a query, oldest first, and its neighbors; sent by the server.
+         * @description All assignments, ledger entries and comments of a query, oldest first, and its neighbors; sent by the server.
          */
         QueryHistory: {
             /** Assignments */
             assignments: components["schemas"]["PastAssignment"][];
             /** Ledger */
             ledger: components["schemas"]["LedgerEntry"][];
+            /**
+             * Comments
+             * @description What reviewers wrote about the query.
+             */
+            comments: components["schemas"]["Comment"][];
             /**
              * Previous
              * @description The id of the previous query in the run, by episode and ordinal.
@@ -4029,6 +4165,101 @@ export interface components {
             tab?: string | null;
         };
         /**
+         * Returned
+         * @description An answer of the caller that a reviewer has sent back, sent by the server.
+         */
+        Returned: {
+            /**
+             * Query
+             * @description The id of the query.
+             */
+            query: number;
+            /**
+             * Run
+             * @description The id of the run.
+             */
+            run: string;
+            /**
+             * Run Name
+             * @description The name of the run.
+             */
+            run_name: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /**
+             * Episode
+             * @description The number of the episode in the run, from 0.
+             */
+            episode: number;
+            /**
+             * Question
+             * @description The query in words.
+             */
+            question: string;
+            /**
+             * Answer
+             * @description The answer that was sent back.
+             */
+            answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            /**
+             * Answered At
+             * @description When the answer was given, in seconds since the epoch.
+             */
+            answered_at: number;
+            comment: components["schemas"]["Comment"];
+        };
+        /**
+         * ReturnedList
+         * @description The answers of the caller that were sent back, newest first; at most 100.
+         */
+        ReturnedList: {
+            /** Returned */
+            returned: components["schemas"]["Returned"][];
+        };
+        /**
+         * ReviewPage
+         * @description One page of answers under review, newest query first, sent by the server.
+         */
+        ReviewPage: {
+            /** Rows */
+            rows: components["schemas"]["ReviewRow"][];
+            /**
+             * Total
+             * @description The number of answers on all pages.
+             */
+            total: number;
+            /**
+             * Newest
+             * @description The id of the newest query on all pages.
+             */
+            newest: number | null;
+            /**
+             * Oldest
+             * @description The id of the oldest query on all pages.
+             */
+            oldest: number | null;
+        };
+        /**
+         * ReviewRow
+         * @description An answered query under review, sent by the server, with what its answer is compared with.
+         */
+        ReviewRow: {
+            query: components["schemas"]["QueryRow"];
+            /**
+             * Differs
+             * @description Whether the answer differs from the learner's suggestion; null if the query had none.
+             */
+            differs: boolean | null;
+            /**
+             * Gold
+             * @description For an answer to a gold query: its labels beside the correct ones; otherwise null.
+             */
+            gold: components["schemas"]["Mark"][] | null;
+        };
+        /**
          * Run
          * @description A run and its account, sent by the server. `spent + reserved <= budget` holds at all times.
          */
@@ -4268,6 +4499,22 @@ export interface components {
              * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
             frames: string[];
+        };
+        /**
+         * SendBack
+         * @description A request to send an answer back, with the comment that says why; sent by a reviewer.
+         */
+        SendBack: {
+            /**
+             * Text
+             * @description The comment; not only spaces.
+             */
+            text: string;
+            /**
+             * Answer
+             * @description The id of the answer that the reviewer has seen.
+             */
+            answer: number;
         };
         /**
          * Session
@@ -8641,6 +8888,335 @@ export interface operations {
             };
             /** @description Not found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listReview: {
+        parameters: {
+            query?: {
+                kind?: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full") | null;
+                annotator?: string | null;
+                /** @description Only answers that differ from the learner's suggestion, or those to gold queries whose first labels were not all correct. Only the latter filter finds answers to gold queries. */
+                disagrees?: ("suggestion" | "gold") | null;
+                /** @description Only rows older than this one. */
+                before?: number | null;
+                /** @description The oldest rows that are newer than this one. */
+                after?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReviewPage"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    comment: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                query: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CommentPost"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comment"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    sendBack: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                query: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SendBack"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comment"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The run's budget is exhausted */
+            402: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description This answer stays as it is; The answer was taken back; The learner has used the answer; The run is finished */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    myReturned: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReturnedList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -31,6 +31,10 @@ export type Command =
   | 'reached'
   | 'send'
   | 'start-over'
+  | 'next-answer'
+  | 'previous-answer'
+  | 'comment'
+  | 'send-back'
   | `choose:${number}`
   | `act:${number}`;
 
@@ -41,10 +45,18 @@ export interface Binding {
   readonly group: Group;
   readonly once?: true; // ignored while the key repeats
 }
-type Group = 'Answer' | 'Player' | 'Task' | 'General';
+type Group = 'Answer' | 'Review' | 'Player' | 'Task' | 'General';
 
 /** Every mode: what is on the screen, which decides what the keys do. */
-export const MODES = [...ANSWERABLE, 'hier_demo', 'flat_demo', 'waiting', 'feedback', 'between'] as const;
+export const MODES = [
+  ...ANSWERABLE,
+  'hier_demo',
+  'flat_demo',
+  'waiting',
+  'feedback',
+  'between',
+  'review',
+] as const;
 export type Mode = (typeof MODES)[number];
 
 /** Return the bindings of a mode. If a subgoal or an action has the key of another command, that command loses the key. */
@@ -62,6 +74,7 @@ export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[
 function taskBindings(mode: Mode): readonly Binding[] {
   if (mode === 'feedback' || mode === 'between') return [];
   if (mode === 'waiting') return [UNDO];
+  if (mode === 'review') return PLAYER;
   return mode === 'hier_demo' || mode === 'flat_demo' ? TASK : [...TASK, ...PLAYER];
 }
 
@@ -104,6 +117,24 @@ const PLAYER: readonly Binding[] = [
 
 /** The bindings of a view where a trajectory is only watched. */
 export const WATCH_BINDINGS: readonly Binding[] = [...PLAYER, HELP];
+
+const REVIEW: readonly Binding[] = [
+  { command: 'next-answer', keys: ['j', 'ArrowDown'], label: 'Next answer, an older one', group: 'Review' },
+  {
+    command: 'previous-answer',
+    keys: ['k', 'ArrowUp'],
+    label: 'Previous answer, a newer one',
+    group: 'Review',
+  },
+  { command: 'comment', keys: ['c'], label: 'Write a comment', group: 'Review', once: true },
+  {
+    command: 'send-back',
+    keys: ['b'],
+    label: 'Send the answer back with the comment',
+    group: 'Review',
+    once: true,
+  },
+];
 
 const ACCEPT: readonly Binding[] = [
   {
@@ -207,6 +238,8 @@ function answerBindings(mode: Mode): readonly Binding[] {
         { command: 'previous-segment', keys: ['ArrowUp'], label: 'Previous label', group: 'Answer' },
         { command: 'next-segment', keys: ['ArrowDown'], label: 'Next label', group: 'Answer' },
       ];
+    case 'review':
+      return REVIEW;
     case 'between':
       return [{ command: 'accept', keys: ['Enter'], label: 'Start practicing', group: 'Answer', once: true }];
   }

@@ -23,7 +23,7 @@ export type RunsRoute =
   | { readonly view: 'query'; readonly run: string; readonly query: number };
 
 /** The parts of the view of a run. */
-export type Section = 'overview' | 'queries' | 'ledger';
+export type Section = 'overview' | 'queries' | 'review' | 'ledger';
 
 export function parseRoute(path: string, search: string): Route {
   const [first = '', second = '', ...rest] = path.split('/').filter(Boolean);
@@ -48,7 +48,9 @@ function runsRoute(run: string, section = '', query = '', ...more: string[]): Ru
   if (section === '')
     return run === 'compare' ? { view: run } : { view: 'run', run: decoded(run), section: 'overview' };
   if (query === '')
-    return section === 'queries' || section === 'ledger' ? { view: 'run', run: decoded(run), section } : null;
+    return section === 'queries' || section === 'review' || section === 'ledger'
+      ? { view: 'run', run: decoded(run), section }
+      : null;
   if (section !== 'queries' || !/^[1-9]\d{0,14}$/.test(query)) return null;
   return { view: 'query', run: decoded(run), query: Number(query) };
 }
