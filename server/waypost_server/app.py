@@ -8,6 +8,7 @@ from contextlib import asynccontextmanager, suppress
 from fastapi import FastAPI
 from starlette.middleware.gzip import GZipMiddleware
 
+from waypost_server.answers import review_routes as review
 from waypost_server.answers import routes as answers
 from waypost_server.auth.access import ACCESS
 from waypost_server.auth.attempts import LoginAttempts
@@ -27,7 +28,6 @@ from waypost_server.play import routes as play
 from waypost_server.play.relay import Relay
 from waypost_server.queries import frame_routes as frames
 from waypost_server.queries import routes as queries
-from waypost_server.review import routes as review
 from waypost_server.runs import routes as runs
 from waypost_server.settings import Settings
 from waypost_server.users import routes as users

@@ -6,13 +6,13 @@ from fastapi import APIRouter, Query
 
 from waypost import wire
 from waypost_server import errors
+from waypost_server.answers import review
 from waypost_server.auth.permissions import Allowed
 from waypost_server.db.transaction import Tx
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath
 from waypost_server.http.problems import refusals
-from waypost_server.review import service as review
 from waypost_server.runs import service as runs
 from waypost_server.watch.query_rows import QueryFilter
 from waypost_server.watch.review_rows import review_page

@@ -1,7 +1,7 @@
 // The answer under review, and the way from one answer to the next.
-import { api, isAborted, unwrap, wordsOf } from '../../api/client';
-import type { Query, QueryHistory, ReviewPage, ReviewRow } from '../../api/types';
-import type { operations } from '../../api/schema';
+import { api, isAborted, unwrap, wordsOf } from '../api/client';
+import type { Query, QueryHistory, ReviewPage, ReviewRow } from '../api/types';
+import type { operations } from '../api/schema';
 
 type Asked = NonNullable<operations['listReview']['parameters']['query']>;
 /** The answers to review: those that match all of these. */
