@@ -2,11 +2,21 @@
 
 from pydantic import Field
 
+from waypost.wire.answers import Answer
 from waypost.wire.gold import Mark
 from waypost.wire.watching import QueryRow
-from waypost.wire.words import Message
+from waypost.wire.words import Kind, Message
 
-__all__ = ["ReviewPage", "ReviewRow"]
+__all__ = ["Agreement", "AgreementOfKind", "ReviewPage", "ReviewRow", "SecondAnswer"]
+
+
+class SecondAnswer(Message):
+    """The answer of a second annotator to the same query, sent by the server. The learner never gets it."""
+
+    annotator: str = Field(description="The name of the second annotator.")
+    answer: Answer
+    units: float = Field(description="What the answer would cost, in units; the run does not pay it.")
+    seconds: float = Field(description="The time from lease to answer, in seconds.")
 
 
 class ReviewRow(Message):
@@ -19,6 +29,7 @@ class ReviewRow(Message):
     gold: list[Mark] | None = Field(
         description="For an answer to a gold query: its labels beside the correct ones; otherwise null."
     )
+    second: SecondAnswer | None = Field(description="The answer of a second annotator; null if there is none.")
 
 
 class ReviewPage(Message):
@@ -28,3 +39,26 @@ class ReviewPage(Message):
     total: int = Field(description="The number of answers on all pages.")
     newest: int | None = Field(description="The id of the newest query on all pages.")
     oldest: int | None = Field(description="The id of the oldest query on all pages.")
+
+
+class AgreementOfKind(Message):
+    """The agreement of first and second answers to one kind of query, sent by the server."""
+
+    kind: Kind
+    queries: int = Field(description="The number of queries that two annotators answered.")
+    labels: int = Field(description="The number of pairs of labels in these answers.")
+    share: float | None = Field(description="The share of pairs whose labels are the same, 0 to 1; null without pairs.")
+    alpha: float | None = Field(
+        description="Krippendorff's alpha of the labels as names; null with fewer queries than `fewest`, or if all "
+        "labels are the same."
+    )
+
+
+class Agreement(Message):
+    """The agreement of the annotators of a run, sent by the server, and what its second answers cost."""
+
+    by_kind: list[AgreementOfKind]
+    fewest: int = Field(description="The number of queries answered twice from which on alpha is given.")
+    waiting: int = Field(description="The number of second answers that are still wanted.")
+    units: float = Field(description="What the second answers would cost at the run's prices; the run does not pay it.")
+    active_seconds: float = Field(description="The annotators' working time for them without idle time, in seconds.")

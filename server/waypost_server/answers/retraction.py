@@ -11,6 +11,7 @@ from waypost_server.db.tables import IS_LIVE, assignments
 from waypost_server.db.tables import ledger as ledger_table
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.transaction import Tx
+from waypost_server.gold import second
 from waypost_server.leases.assignments import find, view
 from waypost_server.leases.service import grant
 from waypost_server.queries import service as queries
@@ -57,6 +58,8 @@ def take_back(tx: Tx, run: Record, query: Record, given: Record, state: wire.Que
     """
     if run.gold_of is None:
         _refund(tx, run, query, given)
+    else:
+        second.settle(tx, query.id, done=False)
     tx.conn.execute(
         update(query_table)
         .where(query_table.c.id == query.id)

@@ -38,7 +38,7 @@ def send_back(tx: Tx, query: int, body: wire.SendBack, user: int) -> wire.Commen
     Raises:
         NotFound: there is no such query.
         Forbidden: the user may not change the run.
-        CannotSendBack: it is the answer to a gold query.
+        CannotSendBack: it is the answer to a gold query, or a second answer.
         AnswerRetracted: this answer does not count, or no longer.
         AnswerUsed: the learner has used the answer.
         RunFinished: the run is finished.
@@ -47,7 +47,7 @@ def send_back(tx: Tx, query: int, body: wire.SendBack, user: int) -> wire.Commen
     run = lock_own(tx, queries.view(tx, query).run, user)
     found = LOCK_QUERY.one(tx.conn, {"query": query})
     if found.run_id != run.id:
-        raise errors.CannotSendBack("This is an answer to a gold query: it is not the learner's, and it is scored.")
+        raise errors.CannotSendBack("This answer is to a gold query or a second one: it is not the learner's.")
     if found.answer_id != body.answer:
         raise errors.AnswerRetracted("This answer does not count: it was taken back or sent back. Reload the query.")
     if found.used:

@@ -32,8 +32,8 @@ async def list_review(
     disagrees: Annotated[
         wire.Disagreement | None,
         Query(
-            description="Only answers that differ from the learner's suggestion, or those to gold queries whose first "
-            "labels were not all correct. Only the latter filter finds answers to gold queries."
+            description="Only answers that differ from the learner's suggestion or from a second answer, or those to "
+            "gold queries whose first labels were not all correct. Only the last filter finds answers to gold queries."
         ),
     ] = None,
     before: Before = None,

@@ -95,6 +95,7 @@ ACCESS: Mapping[str, Access] = {
     "listAnswers": _WATCH,
     "listLedger": _WATCH,
     "listRecords": _WATCH,
+    "getAgreement": _WATCH,
     "exportRun": _WATCH,
     "metrics": _WATCH,
     # the caller's own account, and practice

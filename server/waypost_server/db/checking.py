@@ -23,6 +23,7 @@ from waypost_server.db.tables import (
     metadata,
     queries,
     runs,
+    second_answers,
 )
 from waypost_server.db.transaction import Tx
 
@@ -176,6 +177,14 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         .join(queries, queries.c.id == gold_showings.c.query_id)
         .join(_shadow, _shadow.c.id == queries.c.run_id)
         .where(_shadow.c.gold_of.is_distinct_from(gold.c.run_id)),
+    ),
+    (
+        "A second answer is given in the shadow of its query's run.",
+        "query",
+        select(second_answers.c.query_id.label("id"))
+        .join(queries, queries.c.id == second_answers.c.query_id)
+        .join(_shadow, _shadow.c.id == queries.c.run_id)
+        .where(_shadow.c.gold_of.is_distinct_from(second_answers.c.run_id)),
     ),
 )
 

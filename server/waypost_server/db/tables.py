@@ -96,8 +96,11 @@ runs = Table(
     Column("gold_rate", Float, nullable=False, server_default=text("0")),
     # Set in a shadow run: the run whose gold queries are answered here. That run does not include its shadow's rows.
     Column("gold_of", Text, ForeignKey("runs.id")),
+    # The share of the run's queries that somebody else answers once more, in the shadow.
+    Column("second_answers", Float, nullable=False, server_default=text("0")),
     one_of("state", "running", "paused", "finished"),
     CheckConstraint("gold_rate >= 0 AND gold_rate <= 0.5", name="gold_rate"),
+    CheckConstraint("second_answers >= 0 AND second_answers <= 1", name="second_answers"),
     CheckConstraint("spent >= 0 AND reserved >= 0", name="money_not_negative"),
     CheckConstraint("budget IS NULL OR spent + reserved <= budget", name="budget_not_overspent"),
     CheckConstraint("(state = 'finished') = (finished_at IS NOT NULL)", name="finished_at"),
@@ -356,6 +359,25 @@ gold_showings = Table(
     CheckConstraint("n_right >= 0 AND n_right <= n_labels", name="right_of_labels"),
     Index("ix_probes_user", "user_id", "gold_id"),
     Index("ix_probes_gold", "gold_id"),
+)
+
+# The queries of runs that somebody else answers once more, and their copies in the shadow, once they are handed out.
+second_answers = Table(
+    "second_answers",
+    metadata,
+    Column("of_query_id", RowId, ForeignKey("queries.id"), primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), nullable=False),
+    Column("query_id", RowId, ForeignKey("queries.id"), unique=True),
+    Column("done", Boolean, nullable=False),
+    CheckConstraint("NOT done OR query_id IS NOT NULL", name="done_has_query"),
+)
+IS_WAITING = second_answers.c.done.is_(False)  # as the partial index says it
+Index(
+    "ix_second_answers_waiting",
+    second_answers.c.run_id,
+    second_answers.c.of_query_id,
+    sqlite_where=IS_WAITING,
+    postgresql_where=IS_WAITING,
 )
 
 # How many queries of a run an annotator has got while the run had a gold rate.

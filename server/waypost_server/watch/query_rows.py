@@ -12,7 +12,7 @@ from waypost import wire
 from waypost.prices import to_units
 from waypost_server.db.tables import DIFFERS, IS_LIVE, answers, assignments, gold_showings, queries, users
 from waypost_server.db.transaction import Tx
-from waypost_server.gold import items
+from waypost_server.gold import second, shadow
 from waypost_server.queries.service import ANSWER
 from waypost_server.runs import service as runs
 from waypost_server.watch.row_pages import RowPage
@@ -53,7 +53,9 @@ def query_page(tx: Tx, run: str, chosen: QueryFilter, page: RowPage) -> wire.Que
     """Return one page of a run's queries, newest first."""
     runs.find(tx, run)
     # Gold queries are answered in the run's shadow, and no other filter finds them.
-    conditions = _query_conditions(items.shadow_of(tx, run) if chosen.disagrees == "gold" else run, chosen)
+    conditions = _query_conditions(shadow.of(tx, run) if chosen.disagrees == "gold" else run, chosen)
+    if chosen.disagrees == "second":
+        conditions.append(queries.c.id.in_(second.disagreeing(tx, run)))
     counted = select(func.count(), func.max(queries.c.id), func.min(queries.c.id)).where(*conditions)
     joined: FromClause = queries if chosen.annotator is None else _FROM
     total, newest, oldest = tx.conn.execute(counted.select_from(joined)).one()

@@ -6,9 +6,12 @@ from dataclasses import replace
 from sqlalchemy import select
 
 from waypost import wire
+from waypost.prices import to_units
 from waypost_server.db.tables import gold, gold_showings, queries
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import scoring
+from waypost_server.gold.second import PAIRS
+from waypost_server.queries.service import ANSWER
 from waypost_server.watch.query_rows import QueryFilter, query_page
 from waypost_server.watch.row_pages import RowPage
 
@@ -17,12 +20,13 @@ def review_page(tx: Tx, run: str, chosen: QueryFilter, page: RowPage) -> wire.Re
     """Return one page of a run's answered queries, newest first."""
     found = query_page(tx, run, replace(chosen, state="answered"), page)
     ids = [row.id for row in found.rows]
-    differing, known = _differing(tx, ids), _known(tx, ids)
+    differing, known, twice = _differing(tx, ids), _known(tx, ids), _second(tx, ids)
     rows = [
         wire.ReviewRow(
             query=row,
             differs=differing[row.id],
             gold=None if row.id not in known or row.answer is None else scoring.marks(known[row.id], row.answer),
+            second=twice.get(row.id),
         )
         for row in found.rows
     ]
@@ -42,3 +46,16 @@ def _known(tx: Tx, ids: Sequence[int]) -> Mapping[int, wire.Known]:
         .where(gold_showings.c.query_id.in_(ids))
     )
     return {row.query_id: scoring.KNOWN.validate_json(row.accepted) for row in tx.conn.execute(accepted)}
+
+
+def _second(tx: Tx, ids: Sequence[int]) -> Mapping[int, wire.SecondAnswer]:
+    """Return the second answers to those queries that have one."""
+    return {
+        row.id: wire.SecondAnswer(
+            annotator=row.annotator,
+            answer=ANSWER.validate_json(row.second),
+            units=to_units(row.units),
+            seconds=row.seconds,
+        )
+        for row in tx.conn.execute(PAIRS.where(queries.c.id.in_(ids)))
+    }

@@ -94,6 +94,7 @@ MATRIX: dict[str, set[str]] = {
     "listQueryRows": WATCHERS,
     "listLedger": WATCHERS,
     "listRecords": WATCHERS,
+    "getAgreement": WATCHERS,
     "getHistory": WATCHERS,
     "exportRun": WATCHERS,
     "listQueries": WATCHERS,

@@ -467,6 +467,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/agreement": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Agreement
+         * @description Return how far annotators agree on the queries that two of them answered, by kind of query.
+         *
+         *     Needs the role admin or learner or viewer.
+         */
+        get: operations["getAgreement"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/queries/{query}/history": {
         parameters: {
             query?: never;
@@ -1359,6 +1381,65 @@ export interface webhooks {
 }
 export interface components {
     schemas: {
+        /**
+         * Agreement
+         * @description The agreement of the annotators of a run, sent by the server, and what its second answers cost.
+         */
+        Agreement: {
+            /** By Kind */
+            by_kind: components["schemas"]["AgreementOfKind"][];
+            /**
+             * Fewest
+             * @description The number of queries answered twice from which on alpha is given.
+             */
+            fewest: number;
+            /**
+             * Waiting
+             * @description The number of second answers that are still wanted.
+             */
+            waiting: number;
+            /**
+             * Units
+             * @description What the second answers would cost at the run's prices; the run does not pay it.
+             */
+            units: number;
+            /**
+             * Active Seconds
+             * @description The annotators' working time for them without idle time, in seconds.
+             */
+            active_seconds: number;
+        };
+        /**
+         * AgreementOfKind
+         * @description The agreement of first and second answers to one kind of query, sent by the server.
+         */
+        AgreementOfKind: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /**
+             * Queries
+             * @description The number of queries that two annotators answered.
+             */
+            queries: number;
+            /**
+             * Labels
+             * @description The number of pairs of labels in these answers.
+             */
+            labels: number;
+            /**
+             * Share
+             * @description The share of pairs whose labels are the same, 0 to 1; null without pairs.
+             */
+            share: number | null;
+            /**
+             * Alpha
+             * @description Krippendorff's alpha of the labels as names; null with fewer queries than `fewest`, or if all labels are the same.
+             */
+            alpha: number | null;
+        };
         /**
          * AnswerBatch
          * @description Answers that are stored together, sent by a bot. Sending them again returns the same receipts.
@@ -4258,6 +4339,8 @@ export interface components {
              * @description For an answer to a gold query: its labels beside the correct ones; otherwise null.
              */
             gold: components["schemas"]["Mark"][] | null;
+            /** @description The answer of a second annotator; null if there is none. */
+            second: components["schemas"]["SecondAnswer"] | null;
         };
         /**
          * Run
@@ -4332,6 +4415,12 @@ export interface components {
              */
             gold_rate: number;
             /**
+             * Second Answers
+             * @description The share of the run's queries that a second annotator answers as well, 0 to 1. A demonstration is never answered twice.
+             * @default 0
+             */
+            second_answers: number;
+            /**
              * Result
              * @description The learner's report at the end of the run.
              */
@@ -4379,6 +4468,12 @@ export interface components {
              * @description The planned number of episodes.
              */
             episodes?: number | null;
+            /**
+             * Second Answers
+             * @description The share of the run's queries that a second annotator answers as well, 0 to 1. A demonstration is never answered twice.
+             * @default 0
+             */
+            second_answers: number;
         };
         /**
          * RunList
@@ -4447,6 +4542,31 @@ export interface components {
             } | null;
             /** Gold Rate */
             gold_rate?: number | null;
+            /** Second Answers */
+            second_answers?: number | null;
+        };
+        /**
+         * SecondAnswer
+         * @description The answer of a second annotator to the same query, sent by the server. The learner never gets it.
+         */
+        SecondAnswer: {
+            /**
+             * Annotator
+             * @description The name of the second annotator.
+             */
+            annotator: string;
+            /** Answer */
+            answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            /**
+             * Units
+             * @description What the answer would cost, in units; the run does not pay it.
+             */
+            units: number;
+            /**
+             * Seconds
+             * @description The time from lease to answer, in seconds.
+             */
+            seconds: number;
         };
         /**
          * Segment
@@ -6951,6 +7071,73 @@ export interface operations {
             };
         };
     };
+    getAgreement: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Agreement"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     getHistory: {
         parameters: {
             query?: never;
@@ -8920,8 +9107,8 @@ export interface operations {
             query?: {
                 kind?: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full") | null;
                 annotator?: string | null;
-                /** @description Only answers that differ from the learner's suggestion, or those to gold queries whose first labels were not all correct. Only the latter filter finds answers to gold queries. */
-                disagrees?: ("suggestion" | "gold") | null;
+                /** @description Only answers that differ from the learner's suggestion or from a second answer, or those to gold queries whose first labels were not all correct. Only the last filter finds answers to gold queries. */
+                disagrees?: ("suggestion" | "gold" | "second") | null;
                 /** @description Only rows older than this one. */
                 before?: number | null;
                 /** @description The oldest rows that are newer than this one. */

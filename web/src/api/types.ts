@@ -38,6 +38,7 @@ export type Role = Schemas['User']['role'];
 export type User = Schemas['User'];
 export type Comment = Schemas['Comment'];
 export type Returned = Schemas['Returned'];
+export type Agreement = Schemas['Agreement'];
 export type ReviewPage = Schemas['ReviewPage'];
 export type ReviewRow = Schemas['ReviewRow'];
 export type Numbers = Schemas['Numbers'];

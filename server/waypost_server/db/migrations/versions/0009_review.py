@@ -1,4 +1,4 @@
-"""Reviewers' comments, and whether an answer differs from the learner's suggestion."""
+"""Review: comments, whether an answer differs from the learner's suggestion, and second answers."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -10,7 +10,7 @@ ROW_ID = sa.BigInteger().with_variant(sa.Integer(), "sqlite")
 
 
 def upgrade() -> None:
-    """Add the comments, which are append-only, and the column. Answers of older versions are not compared."""
+    """Add the tables and columns. Answers of older versions are not compared with suggestions."""
     # As SQL: both databases accept a constraint with a new column, and SQLite then needs no copy of the table.
     op.execute(
         "ALTER TABLE queries ADD COLUMN differs BOOLEAN "
@@ -41,6 +41,30 @@ def upgrade() -> None:
     )
     op.create_index("ix_comments_query", "comments", ["query_id", "id"])
     refuse_changes()
+    op.execute(
+        "ALTER TABLE runs ADD COLUMN second_answers FLOAT DEFAULT 0 NOT NULL "
+        "CONSTRAINT ck_runs_second_answers CHECK (second_answers >= 0 AND second_answers <= 1)"
+    )
+    op.create_table(
+        "second_answers",
+        sa.Column("of_query_id", ROW_ID, nullable=False),
+        sa.Column("run_id", sa.Text(), nullable=False),
+        sa.Column("query_id", ROW_ID, nullable=True),
+        sa.Column("done", sa.Boolean(), nullable=False),
+        sa.CheckConstraint("NOT done OR query_id IS NOT NULL", name="ck_second_answers_done_has_query"),
+        sa.ForeignKeyConstraint(["of_query_id"], ["queries.id"], name="fk_second_answers_of_query_id"),
+        sa.ForeignKeyConstraint(["run_id"], ["runs.id"], name="fk_second_answers_run_id"),
+        sa.ForeignKeyConstraint(["query_id"], ["queries.id"], name="fk_second_answers_query_id"),
+        sa.PrimaryKeyConstraint("of_query_id", name="pk_second_answers"),
+        sa.UniqueConstraint("query_id", name="uq_second_answers_query_id"),
+    )
+    op.create_index(
+        "ix_second_answers_waiting",
+        "second_answers",
+        ["run_id", "of_query_id"],
+        sqlite_where=sa.text("done IS 0"),
+        postgresql_where=sa.text("done IS false"),
+    )
 
 
 def refuse_changes() -> None:
