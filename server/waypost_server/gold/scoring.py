@@ -84,10 +84,10 @@ def labels(answer: wire.Answer) -> list[str | None]:
 
 
 def differ(one: wire.Answer | None, other: wire.Answer) -> bool | None:
-    """Return whether two answers to a query differ in a label that both have; None if they cannot be compared."""
+    """Return whether two answers to a query differ in a label; None if they cannot be compared."""
     if one is None or one.kind == "hier_demo":
         return None
-    return any(None not in pair and pair[0] != pair[1] for pair in zip(labels(one), labels(other), strict=True))
+    return labels(one) != labels(other)
 
 
 def marks(known: wire.Known, answer: wire.Answer) -> list[wire.Mark]:

@@ -5,7 +5,7 @@ from itertools import product
 import krippendorff
 import pytest
 from tests.server.gold.test_gold import answer_all
-from tests.server.kit import Caller, Json, Service, query, right_answer
+from tests.server.kit import Caller, Json, Service, query, right_answer, together
 
 from waypost_server.db.checking import check
 from waypost_server.gold.second import is_drawn
@@ -87,6 +87,19 @@ def test_nobody_waits_for_second_answers_and_they_wait_for_nobody(service: Servi
     assert service.learner.get(f"/runs/{run}/agreement")["waiting"] == 1
     ada.answer(retracted)
     assert service.learner.get(f"/runs/{run}/agreement")["waiting"] == 0
+
+
+def test_annotators_who_come_together_get_one_copy(service: Service) -> None:
+    run = service.learner.create_run(second_answers=1.0)
+    service.learner.ask(run, query())
+    answer_all(service.annotator, run, 1)
+    others = service.annotators(4)
+
+    def lease(number: int) -> int:
+        headers = others[number].headers
+        return service.client.post("/api/v1/assignments", json={"run": run}, headers=headers).status_code
+
+    assert sorted(together(lease, 4)) == [201, 204, 204, 204]
 
 
 def test_two_answers_of_one_annotator_are_no_pair(service: Service) -> None:
