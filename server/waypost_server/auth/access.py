@@ -111,6 +111,8 @@ ACCESS: Mapping[str, Access] = {
     "getPractice": _ALL,
     "practice": _ALL,
     # people and webhooks
+    "listAudit": _ADMIN,
+    "exportAudit": _ADMIN,
     "listUsers": _ADMIN,
     "createUser": _ADMIN,
     "getUser": _ADMIN,

@@ -449,3 +449,22 @@ Index(
     sqlite_where=_pending,
     postgresql_where=_pending,
 )
+
+# One row of the audit log (`db.audit`), never changed. `user_id` refers to users, but without a foreign key: its check
+# would wait for a lock on the user's row while everybody else waits for the end of the chain.
+audit = Table(
+    "audit",
+    metadata,
+    Column("number", RowId, primary_key=True, autoincrement=False),  # 1, 2, 3, ...: without gaps, unlike a sequence's
+    Column("at", Text, nullable=False),  # ISO 8601 in UTC: a text, because languages write fractions in different ways
+    Column("user_id", RowId),
+    Column("actor", Text, nullable=False),
+    Column("address", Text),
+    Column("action", Text, nullable=False),
+    Column("object", Text),
+    Column("details", Text, nullable=False),
+    Column("previous", Text, nullable=False, unique=True),  # two rows cannot follow the same row
+    Column("hash", Text, nullable=False),
+    CheckConstraint("number >= 1", name="number"),
+    CheckConstraint("length(previous) = 64 AND length(hash) = 64", name="hash"),
+)

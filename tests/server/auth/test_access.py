@@ -56,6 +56,8 @@ MATRIX: dict[str, set[str]] = {
     "renew": HOLDER,
     "release": HOLDER,
     "retract": HOLDER,
+    "listAudit": ADMIN,
+    "exportAudit": ADMIN,
     "listUsers": ADMIN,
     "createUser": ADMIN,
     "createLoginLink": ADMIN,

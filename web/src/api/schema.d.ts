@@ -1292,6 +1292,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/audit": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Audit
+         * @description List one page of the audit log, newest first: who did what with access, and what was refused.
+         *
+         *     Needs the role admin.
+         */
+        get: operations["listAudit"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/audit/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Audit
+         * @description Download the whole audit log, oldest rows first, with all hashes.
+         *
+         *     Needs the role admin.
+         */
+        get: operations["exportAudit"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/healthz": {
         parameters: {
             query?: never;
@@ -2265,6 +2309,92 @@ export interface components {
              * @description Whether the segment ended at the subgoal.
              */
             reached: boolean;
+        };
+        /**
+         * AuditPage
+         * @description One page of the audit log, newest first, sent by the server.
+         */
+        AuditPage: {
+            /** Rows */
+            rows: components["schemas"]["AuditRow"][];
+            /**
+             * Total
+             * @description The number of rows on all pages.
+             */
+            total: number;
+            /**
+             * Newest
+             * @description The number of the newest row on all pages.
+             */
+            newest: number | null;
+            /**
+             * Oldest
+             * @description The number of the oldest row on all pages.
+             */
+            oldest: number | null;
+            /**
+             * Head
+             * @description NUMBER:HASH of the newest row of all, whatever the filter. Noted elsewhere, `waypost check --audit-head` finds with it whether the end of the log was cut off.
+             */
+            head: string | null;
+        };
+        /**
+         * AuditRow
+         * @description One row of the audit log, sent by the server. The SHA-256 is of its other fields as canonical JSON.
+         */
+        AuditRow: {
+            /**
+             * Number
+             * @description 1 for the first row, then one more for each row.
+             */
+            number: number;
+            /**
+             * At
+             * @description When it happened, in UTC: 2026-01-31T12:00:00.000000Z.
+             */
+            at: string;
+            /**
+             * User
+             * @description The id of the user who acted; null for `nobody` and `command line`.
+             */
+            user: number | null;
+            /**
+             * Actor
+             * @description The name of the user who acted; `nobody` without a valid credential; `command line` for a command.
+             */
+            actor: string;
+            /**
+             * Address
+             * @description The address of the client as the server saw it; null for a command.
+             */
+            address: string | null;
+            /**
+             * Action
+             * @enum {string}
+             */
+            action: "login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated";
+            /**
+             * Object
+             * @description The user, token or run that it is about: `user/7`; null if there is none.
+             */
+            object: string | null;
+            /**
+             * Details
+             * @description More about the action; never a secret.
+             */
+            details: {
+                [key: string]: components["schemas"]["JsonValue"];
+            };
+            /**
+             * Previous
+             * @description The hash of the row before; 64 zeros in the first row.
+             */
+            previous: string;
+            /**
+             * Hash
+             * @description The SHA-256 of the other fields as JSON: keys sorted, no spaces, ASCII only.
+             */
+            hash: string;
         };
         /**
          * BatchReceipt
@@ -10129,6 +10259,133 @@ export interface operations {
             };
             /** @description The webhook is off */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listAudit: {
+        parameters: {
+            query?: {
+                actor?: string | null;
+                action?: ("login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated") | null;
+                /** @description From this time on, in seconds since the epoch. */
+                since?: number | null;
+                /** @description Before this time, in seconds since the epoch. */
+                until?: number | null;
+                /** @description Only rows older than this one. */
+                before?: number | null;
+                /** @description The oldest rows that are newer than this one. */
+                after?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AuditPage"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    exportAudit: {
+        parameters: {
+            query?: {
+                format?: "csv" | "jsonl";
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description One row per line. */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": unknown;
+                    "application/jsonl": unknown;
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };

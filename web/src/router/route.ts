@@ -5,7 +5,7 @@ export type Route =
   | WorkRoute
   | RunsRoute
   | { readonly view: 'gold'; readonly run: string }
-  | { readonly view: 'practice' | 'people' | 'me' }
+  | { readonly view: 'practice' | 'people' | 'audit' | 'me' }
   | { readonly view: 'person'; readonly user: number }
   | { readonly view: 'nowhere' };
 
@@ -32,6 +32,7 @@ export function parseRoute(path: string, search: string): Route {
   if (first === 'runs') return runsRoute(second, ...rest) ?? { view: 'nowhere' };
   if (rest.length > 0) return { view: 'nowhere' };
   if (first === 'people' && /^[1-9]\d{0,14}$/.test(second)) return { view: 'person', user: Number(second) };
+  if (first === 'people' && second === 'audit') return { view: 'audit' };
   if (second !== '') return { view: 'nowhere' };
   if (first === 'practice' || first === 'people' || first === 'me') return { view: first };
   if (first === 'login') return { view: 'login' };
