@@ -242,7 +242,7 @@ def _schema(conn: Connection) -> list[Result]:
     return [
         _told("The tables, columns and indexes are those of this version.", differing),
         _told(
-            "No statement can change an answer, an entry of the ledger, an event, a comment, or a row of the audit log.",
+            "No statement can change an answer, an entry of the ledger, an event, a comment or a row of the audit log.",
             missing,
         ),
     ]

@@ -142,7 +142,7 @@ def test_a_store_that_does_not_exist_is_not_created(database_url: str, tmp_path:
         ("DROP INDEX uq_runs_gold_of", "The tables, columns and indexes are those of this version."),
         (
             "{drop}",
-            "No statement can change an answer, an entry of the ledger, an event, a comment, or a row of the audit log.",
+            "No statement can change an answer, an entry of the ledger, an event, a comment or a row of the audit log.",
         ),
     ],
 )
