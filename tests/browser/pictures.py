@@ -138,6 +138,7 @@ class Gallery:
         self.page.get_by_role("link", name="learner").first.click()
         self.page.get_by_role("heading", level=1, name="learner").wait_for()
         self.take("person")
+        self.visit("audit", "/people/audit", there_is_a_row)
         self.visit("me", "/me", there_is_a_heading)
         self.visit("gold", f"/runs/{run}/gold", there_is_a_heading)
         self.visit("login", "/login", there_is_a_heading)

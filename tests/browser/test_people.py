@@ -53,6 +53,21 @@ def test_an_administrator_lets_somebody_in_and_sends_them_away(
     assert violations(admin) == [], "dialog"
     admin.get_by_role("dialog").get_by_role("button", name="Deactivate").press("Enter")
     expect(admin.get_by_text("Deactivated just now")).to_be_visible()
+    admin.get_by_role("link", name="People").first.click()
+    admin.get_by_role("link", name="Audit log").press("Enter")
+    log = admin.get_by_role("region", name="Audit log")
+    expect(log.get_by_role("row", name="deactivated a user").first).to_contain_text("zoe of the lab")
+    assert violations(admin) == [], "audit log"
+    admin.get_by_role("combobox", name="Action").select_option("user.role_changed")
+    expect(log.get_by_text("deactivated a user")).to_have_count(0)
+    expect(log.get_by_role("row").nth(1)).to_contain_text("from: annotator, name: zoe of the lab, to: viewer")
+    admin.get_by_role("textbox", name="Who").fill("nobody")
+    admin.keyboard.press("Tab")
+    expect(admin.get_by_text("No rows match.")).to_be_visible()
+    admin.get_by_role("link", name="Clear").press("Enter")
+    with admin.expect_download() as download:
+        admin.get_by_role("link", name="JSON Lines").press("Enter")
+    assert link.partition("#")[2] not in download.value.path().read_text()
     zoe.goto("/me")
     expect(zoe.get_by_role("heading", name="You are not signed in")).to_be_visible()
     zoe.goto(link)

@@ -17,7 +17,7 @@ from waypost import wire
 
 BLOCKS = [block for page in PAGES for block in blocks(page)]
 PARSERS = {"json": json.loads, "toml": tomllib.loads, "yaml": yaml.safe_load}
-MOST_NOT_RUN = 18
+MOST_NOT_RUN = 19
 
 
 def runs(block: Block) -> bool:

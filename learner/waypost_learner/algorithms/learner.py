@@ -23,6 +23,7 @@ from waypost_learner.policies.labels import (
     Derives,
     Labels,
     Rows,
+    ends_of,
     rows_of,
     transformed_experience,
     transformed_rows,
@@ -238,7 +239,7 @@ class Learner:
         if self.q:
             self._remember(list(self._experience_of(labels)))
         if self.shared is not None:
-            self.shared.see(list(self._transitions_of(labels)))
+            self.shared.see(list(self._transitions_of(labels)), list(ends_of(labels)))
         grown = {self.views[key].owner for key, data in self.data.items() if len(data) > sizes[key]}
         self.due = [key for key, policy in self.imitators.items() if policy.spec.every_episode or key in grown]
         list(self._threads.map(partial(self._train, idle=False), self.due))

@@ -1,10 +1,9 @@
 """Exploration of a subgoal that random actions do not reach, by places.
 
 Until the first success, an attempt repeats the actions of an earlier one up to a place that was seldom chosen, then
-acts at random (Go-Explore, Ecoffet et al. 2021). Places that episodes seldom outlive, such as those of a deadly fall,
-are chosen less often. After the first success, some attempts begin with a part of a success, until the
-policy succeeds often by itself (Jump-Start RL, Uchendu et al. 2023). The shortest successes are learned from as
-demonstrations.
+acts at random (Go-Explore, Ecoffet et al. 2021). Places that attempts seldom outlive, such as those of a deadly fall,
+are chosen less often. After the first success, some attempts begin with a part of a success, until the policy succeeds
+often by itself (Jump-Start RL, Uchendu et al. 2023). The shortest successes are learned from as demonstrations.
 """
 
 import json

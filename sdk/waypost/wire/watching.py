@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from waypost.wire.answers import Answer
+from waypost.wire.comments import Comment
 from waypost.wire.words import Kind, Message, QueryState
 
 __all__ = [
@@ -121,10 +122,11 @@ class PastAssignment(Message):
 
 
 class QueryHistory(Message):
-    """All assignments and ledger entries of a query, oldest first, and its neighbors; sent by the server."""
+    """All assignments, ledger entries and comments of a query, oldest first, and its neighbors; sent by the server."""
 
     assignments: list[PastAssignment]
     ledger: list[LedgerEntry]
+    comments: list[Comment] = Field(description="What reviewers wrote about the query.")
     previous: int | None = Field(description="The id of the previous query in the run, by episode and ordinal.")
     next: int | None = Field(description="The id of the next query in the run, by episode and ordinal.")
 

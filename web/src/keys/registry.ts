@@ -32,6 +32,10 @@ export type Command =
   | 'send'
   | 'start-over'
   | 'leave'
+  | 'next-answer'
+  | 'previous-answer'
+  | 'comment'
+  | 'send-back'
   | `choose:${number}`
   | `act:${number}`;
 
@@ -42,7 +46,7 @@ export interface Binding {
   readonly group: Group;
   readonly once?: true; // ignored while the key repeats
 }
-type Group = 'Answer' | 'Player' | 'Task' | 'General';
+type Group = 'Answer' | 'Review' | 'Player' | 'Task' | 'General';
 
 /** Every mode: what is on the screen, which decides what the keys do. */
 export const MODES = [
@@ -53,6 +57,7 @@ export const MODES = [
   'feedback',
   'example',
   'between',
+  'review',
 ] as const;
 export type Mode = (typeof MODES)[number];
 
@@ -71,6 +76,7 @@ export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[
 function taskBindings(mode: Mode): readonly Binding[] {
   if (mode === 'feedback' || mode === 'example' || mode === 'between') return [];
   if (mode === 'waiting') return [UNDO];
+  if (mode === 'review') return PLAYER;
   return mode === 'hier_demo' || mode === 'flat_demo' ? TASK : [...TASK, ...PLAYER];
 }
 
@@ -122,6 +128,24 @@ export const LEAVE: Binding = {
 
 /** The bindings of a view where a trajectory is only watched. */
 export const WATCH_BINDINGS: readonly Binding[] = [...PLAYER, HELP];
+
+const REVIEW: readonly Binding[] = [
+  { command: 'next-answer', keys: ['j', 'ArrowDown'], label: 'Next answer, an older one', group: 'Review' },
+  {
+    command: 'previous-answer',
+    keys: ['k', 'ArrowUp'],
+    label: 'Previous answer, a newer one',
+    group: 'Review',
+  },
+  { command: 'comment', keys: ['c'], label: 'Write a comment', group: 'Review', once: true },
+  {
+    command: 'send-back',
+    keys: ['b'],
+    label: 'Send the answer back with the comment',
+    group: 'Review',
+    once: true,
+  },
+];
 
 const ACCEPT: readonly Binding[] = [
   {
@@ -235,6 +259,8 @@ function answerBindings(mode: Mode): readonly Binding[] {
         { command: 'accept', keys: ['Enter'], label: 'Now try one yourself', group: 'Answer', once: true },
         ...LOOK,
       ];
+    case 'review':
+      return REVIEW;
     case 'between':
       return [{ command: 'accept', keys: ['Enter'], label: 'Start practicing', group: 'Answer', once: true }];
   }

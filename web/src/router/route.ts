@@ -5,7 +5,7 @@ export type Route =
   | WorkRoute
   | RunsRoute
   | { readonly view: 'gold'; readonly run: string }
-  | { readonly view: 'people' | 'me' }
+  | { readonly view: 'people' | 'audit' | 'me' }
   | PracticeRoute
   | { readonly view: 'person'; readonly user: number }
   | { readonly view: 'nowhere' };
@@ -31,7 +31,7 @@ export type RunsRoute =
   | { readonly view: 'query'; readonly run: string; readonly query: number };
 
 /** The parts of the view of a run. */
-export type Section = 'overview' | 'queries' | 'ledger';
+export type Section = 'overview' | 'queries' | 'review' | 'ledger';
 
 export function parseRoute(path: string, search: string): Route {
   const [first = '', second = '', ...rest] = path.split('/').filter(Boolean);
@@ -40,6 +40,7 @@ export function parseRoute(path: string, search: string): Route {
   if (first === 'runs') return runsRoute(second, ...rest) ?? { view: 'nowhere' };
   if (rest.length > 0) return { view: 'nowhere' };
   if (first === 'people' && /^[1-9]\d{0,14}$/.test(second)) return { view: 'person', user: Number(second) };
+  if (first === 'people' && second === 'audit') return { view: 'audit' };
   if (second !== '') return { view: 'nowhere' };
   if (first === 'people' || first === 'me') return { view: first };
   if (first === 'practice') return practiceRoute(search);
@@ -62,7 +63,9 @@ function runsRoute(run: string, section = '', query = '', ...more: string[]): Ru
   if (section === '')
     return run === 'compare' ? { view: run } : { view: 'run', run: decoded(run), section: 'overview' };
   if (query === '')
-    return section === 'queries' || section === 'ledger' ? { view: 'run', run: decoded(run), section } : null;
+    return section === 'queries' || section === 'review' || section === 'ledger'
+      ? { view: 'run', run: decoded(run), section }
+      : null;
   if (section !== 'queries' || !/^[1-9]\d{0,14}$/.test(query)) return null;
   return { view: 'query', run: decoded(run), query: Number(query) };
 }
