@@ -9,7 +9,7 @@ const LAYERS = [
   ['render/maze'], // the maze on a canvas
   ['render'], // drawing a state: with the renderer of its domain, else with pictures or as text
   ['runs/curves', 'runs/queries', 'task', 'work/answers'], // learning curves; queries and ledger; one query to answer; sending
-  ['play'], // demonstrations, played in the web app
+  ['play', 'review'], // demonstrations, played in the web app; given answers under review
   ['people', 'practice', 'runs', 'runs/gold', 'work'], // the views
   ['app'], // the header, and the choice of the view
 ];

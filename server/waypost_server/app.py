@@ -3,12 +3,14 @@
 import asyncio
 import logging
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 
 from fastapi import FastAPI
 from starlette.middleware.gzip import GZipMiddleware
 
+from waypost_server.answers import review_routes as review
 from waypost_server.answers import routes as answers
+from waypost_server.auth import refusals
 from waypost_server.auth.access import ACCESS
 from waypost_server.auth.attempts import LoginAttempts
 from waypost_server.auth.lookup import CredentialCache
@@ -19,6 +21,7 @@ from waypost_server.gold import practice_routes as practice
 from waypost_server.gold import routes as gold
 from waypost_server.gold.practice import open_practice
 from waypost_server.http import description, page, problems, spa
+from waypost_server.http.background import going_on
 from waypost_server.http.context import VERSION, Context
 from waypost_server.http.guard import Guard
 from waypost_server.leases import routes as leases
@@ -31,6 +34,7 @@ from waypost_server.runs import routes as runs
 from waypost_server.settings import Settings
 from waypost_server.users import routes as users
 from waypost_server.users import session_routes as sessions
+from waypost_server.watch import audit_routes as audit
 from waypost_server.watch import event_routes as event_streams
 from waypost_server.watch import routes as watch
 from waypost_server.watch import system_routes as system
@@ -41,7 +45,10 @@ from waypost_server.webhooks.courier import delivering
 API = "/api/v1"
 GZIP_BYTES = 8_192  # smaller responses are not compressed
 # Routes are tried in this order, so those that are called most come first.
-ROUTED = (answers, leases, queries, runs, play, watch, event_streams, frames, users, sessions, gold, practice, webhooks)
+ROUTED = (
+    *(answers, leases, queries, runs, play, watch, event_streams),
+    *(frames, users, sessions, gold, review, practice, webhooks, audit),
+)
 
 log = logging.getLogger("waypost")
 
@@ -63,6 +70,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.include_router(module.router, prefix=API)
     app.include_router(system.router)
     problems.install(app)
+    refusals.install(app)
     description.install(app, {operation: rule.words for operation, rule in ACCESS.items()})
     page.install(app)
     spa.install(app, chosen.page)  # the last, because it handles every other path
@@ -80,18 +88,16 @@ async def _lifespan(app: FastAPI, settings: Settings) -> AsyncIterator[None]:
     hub.open()
     app.state.context = Context(settings, db, hub)
     app.state.credentials = CredentialCache(db)
+    app.state.refusals = refusals.Refusals(db)
     app.state.attempts = LoginAttempts(settings.login_failures)
     app.state.practice = await open_practice(db, settings.practice, settings.max_frame_bytes)
     app.state.relay = Relay()
     app.state.readiness = Readiness(db)
-    reaper = asyncio.create_task(_end_expired_leases(app.state.context))
+    context = app.state.context
     try:
-        async with delivering(app.state.context):
+        async with going_on(_end_expired_leases(context)), app.state.refusals.sweeping(), delivering(context):
             yield
     finally:
-        reaper.cancel()
-        with suppress(asyncio.CancelledError):
-            await reaper
         hub.close()
         await asyncio.to_thread(db.close)
 

@@ -1,6 +1,7 @@
 """The server's commands: `serve`, and the schema, users, tokens and login links of a store."""
 
 import json
+import re
 import socket
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
@@ -16,7 +17,7 @@ from waypost import wire
 from waypost_server import errors, serving
 from waypost_server.app import create_app
 from waypost_server.auth import sessions, tokens
-from waypost_server.db import backup, checking, migration
+from waypost_server.db import audit, backup, checking, migration
 from waypost_server.db.engine import BadDatabase, Database
 from waypost_server.db.schema import NewerStore, WrongSchema
 from waypost_server.gold.practice import BadPractice
@@ -154,10 +155,18 @@ def migrate(
 
 
 @app.command()
-def check(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = False) -> None:
-    """Check a store: its file, its ledger, its leases. It only reads, so servers may use the store meanwhile."""
+def check(
+    database: DatabaseOption = DEFAULT_DATABASE,
+    audit_head: Annotated[
+        str | None,
+        typer.Option(metavar="NUMBER:HASH", help="A row of the audit log that was noted earlier: it must be there."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Check a store: file, ledger, leases, audit log. It only reads, so servers may use the store meanwhile."""
+    noted = None if audit_head is None else _head(audit_head)
     with opened(database, create=False) as db:
-        results = db.read_now(checking.check)
+        results = db.read_now(lambda tx: checking.check(tx, noted))
     if as_json:
         typer.echo(json.dumps([asdict(result) for result in results]))
     else:
@@ -167,9 +176,16 @@ def check(database: DatabaseOption = DEFAULT_DATABASE, as_json: JsonOption = Fal
         raise typer.Exit(1)
 
 
+def _head(text: str) -> audit.Head:
+    number, _, digest = text.partition(":")
+    if not re.fullmatch(r"[1-9]\d{0,17}:[0-9a-f]{64}", text):
+        refuse(f"{text!r} is not a row of the audit log; `waypost check` prints one as NUMBER:HASH.")
+    return audit.Head(int(number), digest)
+
+
 def _line(result: checking.Result) -> str:
     if not result.n_faults:
-        return f"ok    {result.fact}"
+        return f"ok    {result.fact}{f' Its newest row: {result.head}' if result.head else ''}"
     more = result.n_faults - len(result.faults)
     return f"WRONG {result.fact} Not so: {', '.join(result.faults)}{f' and {more} more' if more else ''}."
 

@@ -23,6 +23,7 @@ from waypost_learner.policies.labels import (
     Derives,
     Labels,
     Rows,
+    ends_of,
     rows_of,
     transformed_experience,
     transformed_rows,
@@ -238,7 +239,7 @@ class Learner:
         if self.q:
             self._remember(list(self._experience_of(labels)))
         if self.shared is not None:
-            self.shared.see(list(self._transitions_of(labels)))
+            self.shared.see(list(self._transitions_of(labels)), list(ends_of(labels)))
         grown = {self.views[key].owner for key, data in self.data.items() if len(data) > sizes[key]}
         self.due = [key for key, policy in self.imitators.items() if policy.spec.every_episode or key in grown]
         list(self._threads.map(partial(self._train, idle=False), self.due))
@@ -297,7 +298,7 @@ class Learner:
     def _explored(self, key: PolicyKey, segment: Segment) -> bool:
         """Let a subgoal's exploration learn from a segment; return whether it is one of the shortest successes."""
         places = [self._place(state.view) for state in segment.states]
-        return self.explorations[key].learn(segment.actions, places, segment.outcome == "reached")
+        return self.explorations[key].learn(segment.actions, places, segment.outcome == "reached", segment.final)
 
     def _experience(self, key: PolicyKey, trajectory: Trajectory) -> Experience:
         dqn = self._dqn(key)

@@ -1,9 +1,9 @@
 """Exploration of a subgoal that random actions do not reach, by places.
 
 Until the first success, an attempt repeats the actions of an earlier one up to a place that was seldom chosen, then
-acts at random (Go-Explore, Ecoffet et al. 2021). After it, some attempts begin with a part of a success, until the
-policy succeeds often by itself (Jump-Start RL, Uchendu et al. 2023). The shortest successes are learned from as
-demonstrations.
+acts at random (Go-Explore, Ecoffet et al. 2021). Places that attempts seldom outlive, such as those of a deadly fall,
+are chosen less often. After the first success, some attempts begin with a part of a success, until the policy succeeds
+often by itself (Jump-Start RL, Uchendu et al. 2023). The shortest successes are learned from as demonstrations.
 """
 
 import json
@@ -26,6 +26,8 @@ class ExplorationSpec:
     wander: int = 0  # random actions after the way to a place; no exploration if 0
     repeat: float = 0.75  # the probability that a random action repeats the one before
     focus: float = 3.0  # a place that was chosen n times is chosen in proportion to (1 + n) ** -focus
+    outlived: int = 25  # steps after which an attempt has outlived a place
+    caution: float = 2.0  # a place that a share s of the attempts outlived is chosen in proportion to s ** caution
     guided: float = 0.5  # the share of attempts that begin with a part of a success ...
     until: float = 0.5  # ... while less than this share of the policy's own last attempts succeed
     kept: int = 10  # successes, the shortest ones
@@ -37,6 +39,8 @@ class Known:
 
     ways: dict[str, Way] = field(default_factory=dict)  # the shortest way to each place
     chosen: dict[str, int] = field(default_factory=dict)  # how often the place was chosen since it was found
+    ended: dict[str, int] = field(default_factory=dict)  # how many attempts did not outlive the place
+    outlived: dict[str, int] = field(default_factory=dict)  # how many did
     successes: list[Way] = field(default_factory=list)  # the shortest first
 
 
@@ -72,15 +76,21 @@ class Exploration:
         way = known.successes[rng.integers(len(known.successes))]
         return Lead(way[: rng.integers(len(way))])
 
-    def learn(self, actions: Sequence[Action], places: Sequence[Hashable], reached: bool) -> bool:
+    def learn(self, actions: Sequence[Action], places: Sequence[Hashable], reached: bool, ended: bool) -> bool:
         """Learn from an attempt, and return whether it is one of the shortest successes.
 
         Args:
             actions: the H actions of the attempt.
             places: the H + 1 places before, between and after them.
             reached: whether the attempt reached the subgoal.
+            ended: whether the attempt ended the episode.
         """
         known = self._at(places[0])
+        for place, step in {str(place): step for step, place in enumerate(places[:-1])}.items():  # the last time there
+            if reached or len(actions) - step >= self.spec.outlived:
+                known.outlived[place] = known.outlived.get(place, 0) + 1
+            elif ended:
+                known.ended[place] = known.ended.get(place, 0) + 1
         for step, place in enumerate(map(str, places[:-1])):
             if place not in known.ways or step < len(known.ways[place]):
                 known.ways[place] = tuple(actions[:step])
@@ -102,6 +112,8 @@ class Exploration:
             origin: Known(
                 {place: tuple(way) for place, way in known["ways"].items()},
                 known["chosen"],
+                known["ended"],
+                known["outlived"],
                 [tuple(way) for way in known["successes"]],
             )
             for origin, known in json.loads(text).items()
@@ -114,7 +126,12 @@ class Exploration:
         if not known.ways:
             return ()
         places = list(known.ways)
-        weights = (1.0 + np.array([known.chosen[place] for place in places])) ** -self.spec.focus
+        chosen, ended, outlived = (
+            np.array([counts.get(place, 0) for place in places])
+            for counts in (known.chosen, known.ended, known.outlived)
+        )
+        safe = (1.0 + outlived) / (1.0 + outlived + ended)
+        weights = (1.0 + chosen) ** -self.spec.focus * safe**self.spec.caution
         place = places[rng.choice(len(places), p=weights / weights.sum())]
         known.chosen[place] += 1
         return known.ways[place]

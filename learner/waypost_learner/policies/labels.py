@@ -4,8 +4,10 @@ An algorithm appends to `Labels` in the order of the paper's lines. `rows_of` tu
 `transformed_rows` and `transformed_experience` apply a symmetry of the domain.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from waypost.domains import FlatRelabeling, Relabeling, Retracing, Symmetry
 from waypost.trajectory import Action, Segment, Subgoal, Trajectory
@@ -68,6 +70,14 @@ class Labels:
 
 Derives = Relabeling | Retracing | FlatRelabeling
 """A domain that derives labels for other tasks from given ones."""
+
+
+def ends_of(labels: Labels) -> Iterator[Row]:
+    """Yield the observations where a subgoal was chosen and where it ended, as labels say, and the subgoal."""
+    for segment, lo in labels.lo:
+        if segment.subgoal is not None and True in lo.terminations:
+            ended = segment.states[lo.terminations.index(True)]
+            yield Row(np.stack([segment.start.observation, ended.observation]), segment.subgoal)
 
 
 def rows_of(labels: Labels, relabeling: Derives | None = None, from_passed: bool = False) -> Rows:

@@ -118,6 +118,7 @@ def _restore(tensors: Tensors, learner: Learner) -> None:
             data.load(_below(tensors, f"data.{key.number}."))
     if learner.shared is not None and "transitions.labels" in tensors:
         learner.shared.transitions.load(_below(tensors, "transitions."))
+        learner.shared.ends.load(_below(tensors, "ends."))
     for key, q in learner.q.items():
         n = key.number
         if f"rng.{n}" in tensors:
@@ -155,8 +156,8 @@ def _training_state(learner: Learner) -> Tensors:
     for key, data in learner.data.items():
         tensors |= {f"data.{key.number}.{name}": tensor for name, tensor in data.tensors().items()}
     if learner.shared is not None:
-        transitions = learner.shared.transitions.tensors()
-        tensors |= {f"transitions.{name}": tensor for name, tensor in transitions.items()}
+        for kept, data in (("transitions", learner.shared.transitions), ("ends", learner.shared.ends)):
+            tensors |= {f"{kept}.{name}": tensor for name, tensor in data.tensors().items()}
     for key, policy in learner.imitators.items():
         if policy.average is not None:
             tensors |= {f"trained.{key.number}.{name}": tensor for name, tensor in policy.network.state_dict().items()}

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from waypost.wire.words import GoldRate, Json, Kind, Message, Name, RunState, Units
+from waypost.wire.words import GoldRate, Json, Kind, Message, Name, RunState, SecondShare, Units
 
 __all__ = [
     "Attempt",
@@ -63,6 +63,7 @@ class RunCreate(Message):
         default=None, description="The highest total cost of the run, in units; null for no limit."
     )
     episodes: int | None = Field(default=None, ge=1, le=10**9, description="The planned number of episodes.")
+    second_answers: SecondShare = 0
 
 
 class RunPatch(Message):
@@ -79,6 +80,7 @@ class RunPatch(Message):
     )
     result: dict[str, Json] | None = Field(default=None, description="The learner's report at the end of the run.")
     gold_rate: GoldRate | None = None
+    second_answers: SecondShare | None = None
 
 
 class Run(Message):
@@ -103,6 +105,7 @@ class Run(Message):
     )
     open_queries: int = Field(description="The number of unanswered queries.")
     gold_rate: float = Field(description="The share of gold queries among an annotator's queries, 0 to 0.5.")
+    second_answers: SecondShare = 0
     result: dict[str, Json] | None = Field(description="The learner's report at the end of the run.")
     created_at: float = Field(description="When the run was created, in seconds since the epoch.")
     finished_at: float | None = Field(description="When the run finished, in seconds since the epoch.")

@@ -8,6 +8,7 @@ from waypost import wire
 from waypost_server import errors
 from waypost_server.answers import batch, following, retraction
 from waypost_server.answers import service as answers
+from waypost_server.auth import refusals as recorded
 from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
 from waypost_server.http.hot import HotRoute
@@ -63,11 +64,14 @@ async def answer(
 
 
 @router.post("/answers", operation_id="answerBatch")
-async def answer_batch(body: wire.AnswerBatch, context: Ctx, caller: Allowed) -> wire.BatchReceipt:
+async def answer_batch(body: wire.AnswerBatch, request: Request, context: Ctx, caller: Allowed) -> wire.BatchReceipt:
     """Answer several queries, stored by one commit. Each answer has a receipt, or the problem why it does not count."""
     idle = context.settings.idle_seconds
     posts = [answers.Post(one.assignment, caller.user, one.token, one.answer, None, idle) for one in body.answers]
-    return await context.db.write(lambda tx: batch.answer_all(tx, posts))
+    receipt = await context.db.write(lambda tx: batch.answer_all(tx, posts))
+    for problem in (one.problem for one in receipt.results if one.problem is not None):
+        await recorded.record(request, "answerBatch", problem.status, problem.type.rpartition("/")[2])
+    return receipt
 
 
 @router.post(

@@ -61,6 +61,10 @@ ACCESS: Mapping[str, Access] = {
     "addGold": OWN_RUN,
     "retireGold": OWN_RUN,
     "listGold": _LEARN,
+    # review
+    "listReview": OWN_RUN,
+    "comment": OWN_RUN,
+    "sendBack": OWN_RUN,
     # assignments
     "lease": _ANSWER,
     "leaseBatch": _ANSWER,
@@ -83,6 +87,7 @@ ACCESS: Mapping[str, Access] = {
     "getForecast": _ALL,
     "getFrame": _ALL,
     "listAtWork": _ALL,
+    "getOutlook": _ALL,
     "streamEvents": _ALL,
     "streamChanges": _ALL,
     "listQueries": _WATCH,
@@ -92,6 +97,7 @@ ACCESS: Mapping[str, Access] = {
     "listAnswers": _WATCH,
     "listLedger": _WATCH,
     "listRecords": _WATCH,
+    "getAgreement": _WATCH,
     "exportRun": _WATCH,
     "metrics": _WATCH,
     # the caller's own account, and practice
@@ -99,6 +105,7 @@ ACCESS: Mapping[str, Access] = {
     "logout": _ALL,
     "logoutEverywhere": _ALL,
     "myNumbers": _ALL,
+    "myReturned": _ALL,
     "myTokens": _ALL,
     "mySessions": _ALL,
     "createToken": Access(ANYONE, own="token"),
@@ -106,6 +113,8 @@ ACCESS: Mapping[str, Access] = {
     "getPractice": _ALL,
     "practice": _ALL,
     # people and webhooks
+    "listAudit": _ADMIN,
+    "exportAudit": _ADMIN,
     "listUsers": _ADMIN,
     "createUser": _ADMIN,
     "getUser": _ADMIN,

@@ -9,6 +9,7 @@ from sqlalchemy import Select, bindparam, insert, select, update
 
 from waypost.wire import Role
 from waypost_server import errors
+from waypost_server.db.audit import moment
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import credentials, users
 from waypost_server.db.transaction import Tx
@@ -35,8 +36,14 @@ class Secret:
 
     id: int
     user: int
+    name: str  # of the user
     secret: str
     expires_at: float | None
+
+    @property
+    def expires(self) -> str | None:
+        """When it expires, as the audit log writes it."""
+        return None if self.expires_at is None else moment(self.expires_at)
 
 
 def hash_of(secret: str) -> str:
@@ -63,7 +70,7 @@ def issue(tx: Tx, user: int, kind: CredentialKind, label: str = "", seconds: flo
         .values(user_id=user, kind=kind, hash=hash_of(secret), label=label, created_at=tx.now, expires_at=expires_at)
         .returning(credentials.c.id)
     ).one()
-    return Secret(row.id, user, secret, expires_at)
+    return Secret(row.id, user, owner.name, secret, expires_at)
 
 
 _FIND = Prepared(
@@ -88,6 +95,30 @@ def find(tx: Tx, secret_hash: str, kind: CredentialKind) -> Owner | None:
     return Owner(row.id, row.name, row.role, row.credential, is_stale)
 
 
+@dataclass(frozen=True)
+class Rejected:
+    """A secret that is known but not valid: its credential, its user, and the reason."""
+
+    credential: int
+    user: int
+    name: str  # of the user
+    reason: Literal["deactivated", "revoked", "expired"]
+
+
+def why_rejected(tx: Tx, secret_hash: str, kind: CredentialKind) -> Rejected | None:
+    """Return why a secret that is not valid is not, or None if it is unknown."""
+    row = tx.conn.execute(
+        select(credentials.c.id, credentials.c.user_id, credentials.c.revoked_at, users.c.name, users.c.deactivated_at)
+        .join(users, users.c.id == credentials.c.user_id)
+        .where(credentials.c.hash == secret_hash, credentials.c.kind == kind)
+    ).one_or_none()
+    if row is None:
+        return None
+    if row.deactivated_at is not None:
+        return Rejected(row.id, row.user_id, row.name, "deactivated")
+    return Rejected(row.id, row.user_id, row.name, "expired" if row.revoked_at is None else "revoked")
+
+
 def seconds_left(tx: Tx, credential: int) -> float | None:
     """Return how long a credential is still valid; None if it does not expire."""
     until = tx.conn.execute(select(credentials.c.expires_at).where(credentials.c.id == credential)).scalar_one()
@@ -109,18 +140,17 @@ def valid(tx: Tx, user: int, kind: CredentialKind) -> Select[Any]:
     )
 
 
-def revoke(tx: Tx, credential: int) -> None:
-    """Revoke a credential."""
-    _revoke_where(tx, credentials.c.id == credential)
+def revoke(tx: Tx, credential: int) -> bool:
+    """Revoke a credential; return whether it was not revoked before."""
+    return bool(_revoke_where(tx, credentials.c.id == credential))
 
 
-def revoke_all(tx: Tx, user: int, kind: CredentialKind | None = None) -> None:
-    """Revoke all credentials of a user, or all of one kind."""
+def revoke_all(tx: Tx, user: int, kind: CredentialKind | None = None) -> int:
+    """Revoke all credentials of a user, or all of one kind; return how many were not revoked before."""
     of_kind = () if kind is None else (credentials.c.kind == kind,)
-    _revoke_where(tx, credentials.c.user_id == user, *of_kind)
+    return _revoke_where(tx, credentials.c.user_id == user, *of_kind)
 
 
-def _revoke_where(tx: Tx, *conditions: Any) -> None:
-    tx.conn.execute(
-        update(credentials).where(*conditions, credentials.c.revoked_at.is_(None)).values(revoked_at=tx.now)
-    )
+def _revoke_where(tx: Tx, *conditions: Any) -> int:
+    not_yet = (*conditions, credentials.c.revoked_at.is_(None))
+    return tx.conn.execute(update(credentials).where(*not_yet).values(revoked_at=tx.now)).rowcount

@@ -10,7 +10,9 @@ from starlette.requests import HTTPConnection
 from waypost.wire import Role
 from waypost_server import errors
 from waypost_server.auth.access import ACCESS, check_role
+from waypost_server.auth.credentials import CredentialKind, hash_of
 from waypost_server.auth.lookup import Cached, CredentialCache
+from waypost_server.db.audit import Actor
 
 COOKIE = "waypost_session"
 HOST_ONLY = "__Host-"  # with it, a browser lets neither another host nor a page over http set the cookie
@@ -28,6 +30,17 @@ class Caller:
     role: Role
     credential: int
     by_cookie: bool
+    address: str | None
+
+    @property
+    def actor(self) -> Actor:
+        """The caller as the audit log names them."""
+        return Actor(self.name, self.user, self.address)
+
+
+def address_of(connection: HTTPConnection) -> str | None:
+    """Return the address that a request came from; behind a proxy, that is the proxy's: its headers can be forged."""
+    return connection.client.host if connection.client else None
 
 
 def is_secure(connection: HTTPConnection) -> bool:
@@ -51,10 +64,15 @@ async def authenticate(connection: HTTPConnection, cache: CredentialCache) -> Ca
     secret = connection.cookies.get(cookie_of(connection)) if by_cookie else token.strip()
     if not secret:
         raise errors.Unauthenticated("Send `Authorization: Bearer <token>`, or open a login link (waypost login-link).")
-    owner = await cache.find(secret, "session" if by_cookie else "api")
+    kind: CredentialKind = "session" if by_cookie else "api"
+    owner = await cache.find(secret, kind)
     if owner is None:
+        connection.state.rejected = (kind, hash_of(secret))  # for the audit log, as the caller below (`auth.refusals`)
         raise errors.Unauthenticated("The token or session is unknown, expired or revoked; get a new one.")
-    return Caller(owner.user, owner.name, owner.role, owner.credential, by_cookie)
+    address = address_of(connection)
+    caller = Caller(owner.user, owner.name, owner.role, owner.credential, by_cookie, address)
+    connection.state.caller = caller
+    return caller
 
 
 async def admit(

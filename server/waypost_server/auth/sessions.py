@@ -4,14 +4,15 @@ from sqlalchemy import case, exists, select, update
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.credentials import Secret, hash_of, issue, valid
+from waypost_server.auth.credentials import Secret, hash_of, issue, revoke, revoke_all, valid, why_rejected
+from waypost_server.db.audit import COMMAND_LINE, Actor, Entry
 from waypost_server.db.tables import credentials, users
 from waypost_server.db.transaction import Tx
 
 RENEWED_AFTER = 0.1  # sliding renewal: a session is extended once this share of its lifetime is over
 
 
-def create_login_link(tx: Tx, user: int, seconds: float) -> wire.LoginLink:
+def create_login_link(tx: Tx, user: int, seconds: float, by: Actor = COMMAND_LINE) -> wire.LoginLink:
     """Create a one-time login code that is valid for `seconds`.
 
     Raises:
@@ -19,10 +20,12 @@ def create_login_link(tx: Tx, user: int, seconds: float) -> wire.LoginLink:
         NotActive: the user is deactivated.
     """
     issued = issue(tx, user, "login", seconds=seconds)
+    details = {"link": issued.id, "name": issued.name, "expires": issued.expires}
+    tx.record(Entry(by, "link.created", f"user/{user}", details))
     return wire.LoginLink(code=issued.secret, expires_at=issued.expires_at or 0.0)
 
 
-def redeem(tx: Tx, code: str, seconds: float) -> Secret | None:
+def redeem(tx: Tx, code: str, seconds: float, address: str | None = None) -> Secret | None:
     """Use up a login code and return a new session, or None if the code is not valid (`why_refused` says why)."""
     used = tx.conn.execute(
         update(credentials)
@@ -33,9 +36,26 @@ def redeem(tx: Tx, code: str, seconds: float) -> Secret | None:
             credentials.c.expires_at > tx.now,
         )
         .values(revoked_at=tx.now)
-        .returning(credentials.c.user_id)
+        .returning(credentials.c.id, credentials.c.user_id)
     ).one_or_none()
-    return None if used is None else issue(tx, used.user_id, "session", seconds=seconds)
+    if used is None:
+        return None
+    session = issue(tx, used.user_id, "session", seconds=seconds)
+    actor = Actor(session.name, session.user, address)
+    tx.record(Entry(actor, "login", f"user/{session.user}", {"link": used.id, "session": session.id}))
+    return session
+
+
+def end_session(tx: Tx, session: int, by: Actor) -> None:
+    """End a user's own session."""
+    if revoke(tx, session):
+        tx.record(Entry(by, "logout", f"user/{by.user}", {"session": session}))
+
+
+def end_all_sessions(tx: Tx, user: int, by: Actor) -> None:
+    """End all sessions of a user."""
+    if ended := revoke_all(tx, user, "session"):
+        tx.record(Entry(by, "logout", f"user/{user}", {"sessions": ended}))
 
 
 def administrator_has_logged_in(tx: Tx) -> bool:
@@ -46,17 +66,12 @@ def administrator_has_logged_in(tx: Tx) -> bool:
 
 def why_refused(tx: Tx, code: str) -> errors.Unauthenticated:
     """Return the reason why a login code is not valid, and what to do about it."""
-    known = (
-        select(credentials.c.revoked_at, users.c.deactivated_at)
-        .join(users, users.c.id == credentials.c.user_id)
-        .where(credentials.c.hash == hash_of(code), credentials.c.kind == "login")
-    )
-    row = tx.conn.execute(known).one_or_none()
-    if row is None:
+    rejected = why_rejected(tx, hash_of(code), "login")
+    if rejected is None:
         return errors.Unauthenticated("This login link does not exist; check that you copied the whole link.")
-    if row.deactivated_at is not None:
+    if rejected.reason == "deactivated":
         return errors.Deactivated("This account is deactivated; ask an administrator of this server.")
-    if row.revoked_at is not None:
+    if rejected.reason == "revoked":
         return errors.LoginUsed("This login link was used before, and each link works once; ask for a new one.")
     return errors.LoginExpired("This login link has expired; ask for a new one.")
 

@@ -5,13 +5,19 @@ from sqlalchemy import select
 from waypost import wire
 from waypost_server import errors
 from waypost_server.auth.credentials import issue, revoke, seconds_left, valid
+from waypost_server.db.audit import COMMAND_LINE, Actor, Entry
 from waypost_server.db.clock import DAY
 from waypost_server.db.tables import credentials, users
 from waypost_server.db.transaction import Tx
 
 
 def create_token(
-    tx: Tx, user: int, label: str, days: float | None = None, made_with: int | None = None
+    tx: Tx,
+    user: int,
+    label: str,
+    days: float | None = None,
+    made_with: int | None = None,
+    by: Actor = COMMAND_LINE,
 ) -> wire.NewToken:
     """Create an API token that is valid for `days`, or until it is revoked.
 
@@ -24,6 +30,8 @@ def create_token(
     wanted = None if days is None else days * DAY
     left = None if made_with is None else seconds_left(tx, made_with)
     issued = issue(tx, user, "api", label, min((one for one in (wanted, left) if one is not None), default=None))
+    details = {"user": user, "name": issued.name, "label": label, "expires": issued.expires}
+    tx.record(Entry(by, "token.created", f"token/{issued.id}", details))
     return wire.NewToken(id=issued.id, token=issued.secret)
 
 
@@ -50,15 +58,22 @@ def list_tokens(tx: Tx, user: int) -> wire.TokenList:
     )
 
 
-def revoke_token(tx: Tx, token: int, owner: int | None = None) -> None:
+def revoke_token(tx: Tx, token: int, owner: int | None = None, by: Actor = COMMAND_LINE) -> None:
     """Revoke an API token; with `owner`, only if it belongs to that user.
 
     Raises:
         NotFound: there is no such token, or it belongs to another user.
     """
-    found = select(credentials.c.id).where(credentials.c.id == token, credentials.c.kind == "api")
+    found = (
+        select(credentials.c.user_id, credentials.c.label, users.c.name)
+        .join(users, users.c.id == credentials.c.user_id)
+        .where(credentials.c.id == token, credentials.c.kind == "api")
+    )
     if owner is not None:
         found = found.where(credentials.c.user_id == owner)
-    if tx.conn.execute(found).one_or_none() is None:
+    row = tx.conn.execute(found).one_or_none()
+    if row is None:
         raise errors.NotFound(f"There is no token {token}.")
-    revoke(tx, token)
+    if revoke(tx, token):
+        details = {"user": row.user_id, "name": row.name, "label": row.label}
+        tx.record(Entry(by, "token.revoked", f"token/{token}", details))

@@ -11,21 +11,24 @@ from alembic.autogenerate import compare_metadata
 from alembic.runtime.migration import MigrationContext
 from sqlalchemy import Column, Connection, Select, and_, case, create_engine, func, or_, select, text
 
+from waypost_server.db import audit
 from waypost_server.db.engine import parse
 from waypost_server.db.tables import (
     IS_LIVE,
     answers,
     assignments,
+    comments,
     gold,
     gold_showings,
     ledger,
     metadata,
     queries,
     runs,
+    second_answers,
 )
 from waypost_server.db.transaction import Tx
 
-APPEND_ONLY = ("answers", "ledger", "events")  # tables whose rows triggers keep as they are
+APPEND_ONLY = ("answers", "audit", "ledger", "events", "comments")  # tables whose rows triggers keep as they are
 SHOWN = 5  # faults that a result names
 
 
@@ -37,11 +40,13 @@ class Result:
         fact: what should hold, as a sentence.
         faults: what does not hold, at most `SHOWN`; empty if all is well.
         n_faults: how many there are in all.
+        head: of the audit log: its newest row, to be written down elsewhere; None if it has none.
     """
 
     fact: str
     faults: tuple[str, ...]
     n_faults: int
+    head: str | None = None
 
 
 def _sum(column: Column[Any]) -> Select[Any]:
@@ -160,6 +165,14 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         .where(runs.c.gold_of.is_(None), queries.c.run_priority != runs.c.priority),
     ),
     (
+        "An answer that was sent back belongs to the query of the comment, and counts no more.",
+        "comment",
+        select(comments.c.id)
+        .join(answers, answers.c.id == comments.c.answer_id)
+        .join(queries, queries.c.id == answers.c.query_id)
+        .where(or_(queries.c.id != comments.c.query_id, _counting)),
+    ),
+    (
         "A gold query is shown in the shadow of its run.",
         "query",
         select(gold_showings.c.query_id.label("id"))
@@ -168,13 +181,26 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         .join(_shadow, _shadow.c.id == queries.c.run_id)
         .where(_shadow.c.gold_of.is_distinct_from(gold.c.run_id)),
     ),
+    (
+        "A second answer is given in the shadow of its query's run.",
+        "query",
+        select(second_answers.c.query_id.label("id"))
+        .join(queries, queries.c.id == second_answers.c.query_id)
+        .join(_shadow, _shadow.c.id == queries.c.run_id)
+        .where(_shadow.c.gold_of.is_distinct_from(second_answers.c.run_id)),
+    ),
 )
 
 
-def check(tx: Tx) -> list[Result]:
-    """Check the whole store, as it was when the transaction began."""
+def check(tx: Tx, noted: audit.Head | None = None) -> list[Result]:
+    """Check the whole store, as it was when the transaction began.
+
+    Args:
+        tx: reads the store.
+        noted: a head of the audit log that was written down earlier.
+    """
     of_the_file = _file(tx.conn) if tx.one_writer else []  # PostgreSQL checks its own files and foreign keys
-    return [*of_the_file, *_schema(tx.conn), *(_result(tx, *one) for one in CHECKS)]
+    return [*of_the_file, *_schema(tx.conn), *(_result(tx, *one) for one in CHECKS), _chain(tx.conn, noted)]
 
 
 def check_file(url: str) -> list[Result]:
@@ -215,8 +241,19 @@ def _schema(conn: Connection) -> list[Result]:
     missing = sorted(guards - set(conn.execute(text(names)).scalars()))
     return [
         _told("The tables, columns and indexes are those of this version.", differing),
-        _told("No statement can change an answer, an entry of the ledger, or an event.", missing),
+        _told(
+            "No statement can change an answer, an entry of the ledger, an event, a comment or a row of the audit log.",
+            missing,
+        ),
     ]
+
+
+def _chain(conn: Connection, noted: audit.Head | None) -> Result:
+    """Check the audit log up to the first row that does not fit: after it, every row follows a row that is wrong."""
+    fault, newest = audit.first_fault(conn, noted), audit.head(conn)
+    faults = () if fault is None else (fault,)
+    fact = "The audit log is one chain: no row was changed, removed or inserted."
+    return Result(fact, faults, len(faults), None if newest is None else str(newest))
 
 
 def _told(fact: str, faults: list[str]) -> Result:

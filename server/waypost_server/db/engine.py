@@ -17,12 +17,12 @@ from sqlalchemy.engine import URL
 from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
 
 from waypost_server import errors
-from waypost_server.db import schema
+from waypost_server.db import audit, schema
 from waypost_server.db.notifications import Notifications
 from waypost_server.db.prepared import run_sql
 from waypost_server.db.transaction import Tx
 from waypost_server.db.wakeups import Topics
-from waypost_server.db.writer import CommittingThreads, GroupCommit, Writer
+from waypost_server.db.writer import CommittingThreads, GroupCommit, Work, Writer
 
 T = TypeVar("T")
 
@@ -73,7 +73,7 @@ class Database:
         Raises:
             StorageFailed, StoreBusy: nothing was stored.
         """
-        return self._writer.submit(lambda conn, topics: work(Tx(conn, topics))).result()
+        return self._writer.submit(_recorded(work)).result()
 
     def read_now(self, work: Callable[[Tx], T]) -> T:
         """Run reads against one consistent snapshot and return the result."""
@@ -89,7 +89,7 @@ class Database:
         Raises:
             StorageFailed, StoreBusy: nothing was stored.
         """
-        return await asyncio.wrap_future(self._writer.submit(lambda conn, topics: work(Tx(conn, topics))))
+        return await asyncio.wrap_future(self._writer.submit(_recorded(work)))
 
     async def read(self, work: Callable[[Tx], T]) -> T:
         """Run reads off the event loop and return the result."""
@@ -103,6 +103,19 @@ class Database:
         self._readers.shutdown()
         self._read_engine.dispose()
         self._engine.dispose()
+
+
+def _recorded(work: Callable[[Tx], T]) -> Work[T]:
+    """Return a transaction that ends with the rows of the audit log that its work recorded."""
+
+    def run(conn: Connection, topics: Topics) -> T:
+        tx = Tx(conn, topics)
+        result = work(tx)
+        if tx.recorded:
+            audit.append(conn, tx.recorded)
+        return result
+
+    return run
 
 
 def migrate(url: str, keep: Callable[[], None] = lambda: None) -> schema.Migrated:

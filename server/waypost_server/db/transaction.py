@@ -1,4 +1,4 @@
-"""A transaction: the connection, the time, and the topics to wake after the commit. Every SQL statement runs in one."""
+"""A transaction: the connection, the time, the audit log, the topics to wake. Every SQL statement runs in one."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -9,6 +9,7 @@ from sqlalchemy import Connection, Table
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.sql import select
 
+from waypost_server.db.audit import Entry
 from waypost_server.db.clock import clock
 from waypost_server.db.prepared import Prepared, run_sql
 from waypost_server.db.wakeups import Topics
@@ -25,6 +26,7 @@ class Tx:
 
     conn: Connection
     topics: Topics = field(default_factory=set)
+    recorded: list[Entry] = field(default_factory=list)
     _now: float | None = None
 
     @property
@@ -43,9 +45,11 @@ class Tx:
     def part(self) -> Iterator[None]:
         """Run a part of the transaction. If it fails, only the part is undone."""
         run_sql(self.conn, "SAVEPOINT part")
+        recorded = len(self.recorded)
         try:
             yield
         except BaseException:
+            del self.recorded[recorded:]
             if not self.conn.invalidated:
                 run_sql(self.conn, "ROLLBACK TO SAVEPOINT part")
                 run_sql(self.conn, "RELEASE SAVEPOINT part")
@@ -59,3 +63,7 @@ class Tx:
     def wake(self, *topics: str) -> None:
         """Wake the waiters of these topics after the commit."""
         self.topics.update(topics)
+
+    def record(self, entry: Entry) -> None:
+        """Record in the audit log what this transaction does. The row is appended as its last statement."""
+        self.recorded.append(entry)

@@ -10,6 +10,7 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
 from waypost import wire
 from waypost_server import errors
+from waypost_server.auth import refusals
 from waypost_server.auth.access import ACCESS, check_role
 from waypost_server.auth.lookup import Cached, CredentialCache
 from waypost_server.auth.permissions import Caller, authenticate_socket
@@ -36,6 +37,7 @@ async def play(socket: WebSocket, query: RowPath, context: Ctx, cache: Cached, r
     except WebSocketDisconnect:
         pass
     except errors.Refusal as refusal:
+        await refusals.record(socket, "play", refusal.status, refusal.name)
         await close(socket, refusal)
 
 

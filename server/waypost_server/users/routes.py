@@ -28,9 +28,9 @@ async def list_users(context: Ctx, _: Allowed) -> wire.UserList:
 
 
 @router.post("/users", status_code=201, operation_id="createUser", responses=refusals(errors.NameTaken))
-async def create_user(body: wire.UserCreate, context: Ctx, _: Allowed) -> wire.User:
+async def create_user(body: wire.UserCreate, context: Ctx, caller: Allowed) -> wire.User:
     """Create a user: a person or a program that may call the server."""
-    return await context.db.write(lambda tx: users.create_user(tx, body.name, body.role))
+    return await context.db.write(lambda tx: users.create_user(tx, body.name, body.role, caller.actor))
 
 
 @router.get("/users/{user}", operation_id="getUser", responses=refusals(errors.NotFound))
@@ -40,12 +40,12 @@ async def get_user(user: RowId, context: Ctx, _: Allowed) -> wire.User:
 
 
 @router.patch("/users/{user}", operation_id="patchUser", responses=refusals(errors.NotFound, errors.LastAdministrator))
-async def patch_user(user: RowId, body: wire.UserPatch, context: Ctx, cache: Cached, _: Allowed) -> wire.User:
+async def patch_user(user: RowId, body: wire.UserPatch, context: Ctx, cache: Cached, caller: Allowed) -> wire.User:
     """Change a user's role; deactivate or reactivate a user.
 
     Deactivation revokes sessions, tokens and login links, and releases leases, all immediately. Answers stay.
     """
-    changed = await context.db.write(lambda tx: users.change(tx, user, body))
+    changed = await context.db.write(lambda tx: users.change(tx, user, body, caller.actor))
     cache.clear()
     return changed
 
@@ -57,11 +57,11 @@ async def patch_user(user: RowId, body: wire.UserPatch, context: Ctx, cache: Cac
     responses=refusals(errors.NotFound, errors.NotActive),
 )
 async def create_login_link(
-    user: RowId, context: Ctx, _: Allowed, body: wire.LoginLinkCreate | None = None
+    user: RowId, context: Ctx, caller: Allowed, body: wire.LoginLinkCreate | None = None
 ) -> wire.LoginLink:
     """Create a one-time login code; the link is `<this server>/login#<code>`."""
     seconds = (body and body.seconds) or context.settings.link_seconds
-    return await context.db.write(lambda tx: sessions.create_login_link(tx, user, seconds))
+    return await context.db.write(lambda tx: sessions.create_login_link(tx, user, seconds, caller.actor))
 
 
 @router.get("/users/{user}/tokens", operation_id="listTokens", responses=refusals(errors.NotFound))
@@ -97,12 +97,14 @@ async def create_token(body: wire.TokenCreate, context: Ctx, caller: Allowed) ->
     if user != caller.user and caller.role not in ADMINS:
         raise errors.Forbidden("Only an administrator may create tokens for other users.")
     made_with = None if caller.by_cookie else caller.credential
-    return await context.db.write(lambda tx: tokens.create_token(tx, user, body.label, body.days, made_with))
+    return await context.db.write(
+        lambda tx: tokens.create_token(tx, user, body.label, body.days, made_with, caller.actor)
+    )
 
 
 @router.delete("/tokens/{token}", status_code=204, operation_id="revokeToken", responses=refusals(errors.NotFound))
 async def revoke_token(token: RowId, context: Ctx, cache: Cached, caller: Allowed) -> None:
     """Revoke one of the caller's tokens; an administrator may revoke any. It takes effect immediately."""
     owner = None if caller.role in ADMINS else caller.user
-    await context.db.write(lambda tx: tokens.revoke_token(tx, token, owner))
+    await context.db.write(lambda tx: tokens.revoke_token(tx, token, owner, caller.actor))
     cache.clear()

@@ -2,13 +2,14 @@
 
 from typing import Any
 
-from sqlalchemy import Row, Select, func, insert, select, update
+from sqlalchemy import Row, Select, and_, func, insert, or_, select, update
 from sqlalchemy.exc import IntegrityError
 
 from waypost import wire
 from waypost_server import errors
 from waypost_server.auth.credentials import revoke_all
 from waypost_server.auth.roles import ANNOTATORS
+from waypost_server.db.audit import COMMAND_LINE, Actor, Entry
 from waypost_server.db.tables import credentials, users
 from waypost_server.db.transaction import Tx
 from waypost_server.leases import service as leases
@@ -34,7 +35,7 @@ def _of_row(row: Row[Any]) -> wire.User:
     )
 
 
-def create_user(tx: Tx, name: str, role: wire.Role) -> wire.User:
+def create_user(tx: Tx, name: str, role: wire.Role, by: Actor = COMMAND_LINE) -> wire.User:
     """Create a user.
 
     Raises:
@@ -45,6 +46,7 @@ def create_user(tx: Tx, name: str, role: wire.Role) -> wire.User:
             row = tx.conn.execute(insert(users).values(name=name, role=role, created_at=tx.now).returning(users)).one()
     except IntegrityError:
         raise errors.NameTaken(f"There is a user named {name!r}; choose another name.") from None
+    tx.record(Entry(by, "user.created", f"user/{row.id}", {"name": name, "role": role}))
     return _of_row(row)
 
 
@@ -60,7 +62,10 @@ def ensure_former_user(tx: Tx, name: str) -> int:
     if known is not None:
         return int(known)
     former = insert(users).values(name=name, role="annotator", created_at=tx.now, deactivated_at=tx.now)
-    return int(tx.conn.execute(former.returning(users.c.id)).scalar_one())
+    user = int(tx.conn.execute(former.returning(users.c.id)).scalar_one())
+    details = {"name": name, "role": "annotator", "active": False}
+    tx.record(Entry(COMMAND_LINE, "user.created", f"user/{user}", details))
+    return user
 
 
 def ensure_administrator(tx: Tx) -> wire.User:
@@ -103,7 +108,7 @@ def list_users(tx: Tx) -> wire.UserList:
     return wire.UserList(users=[_of_row(row) for row in rows])
 
 
-def change(tx: Tx, user: int, patch: wire.UserPatch) -> wire.User:
+def change(tx: Tx, user: int, patch: wire.UserPatch, by: Actor = COMMAND_LINE) -> wire.User:
     """Change a user's role, deactivate or reactivate the user. Absent fields of the patch change nothing.
 
     Deactivation revokes all credentials. Deactivation, or a role that may not answer, releases leases. Answers stay.
@@ -112,18 +117,27 @@ def change(tx: Tx, user: int, patch: wire.UserPatch) -> wire.User:
         NotFound: there is no such user.
         LastAdministrator: no active administrator would be left.
     """
-    # Lock all administrators in one order, so that two of them cannot demote each other at the same time.
-    administrators = tx.conn.execute(
-        select(users.c.id)
-        .where(users.c.role == "admin", users.c.deactivated_at.is_(None))
+    # Lock all administrators in one order, so that two of them cannot demote each other at the same time; and the
+    # user, so that the audit log says what really changed.
+    is_administrator = and_(users.c.role == "admin", users.c.deactivated_at.is_(None))
+    locked = tx.conn.execute(
+        select(users.c.id, is_administrator.label("is_administrator"))
+        .where(or_(is_administrator, users.c.id == user))
         .order_by(users.c.id)
         .with_for_update()
-    ).scalars()
+    )
+    administrators = [row.id for row in locked if row.is_administrator]
     now = view(tx, user)
     role = patch.role or now.role
     active = now.deactivated_at is None if patch.active is None else patch.active
-    if administrators.all() == [user] and (role != "admin" or not active):
+    if administrators == [user] and (role != "admin" or not active):
         raise errors.LastAdministrator(f"{now.name} is the only administrator; first make another user one.")
+    if role != now.role:
+        details = {"name": now.name, "from": now.role, "to": role}
+        tx.record(Entry(by, "user.role_changed", f"user/{user}", details))
+    if active != (now.deactivated_at is None):
+        action: wire.AuditAction = "user.reactivated" if active else "user.deactivated"
+        tx.record(Entry(by, action, f"user/{user}", {"name": now.name}))
     if not active and now.deactivated_at is None:
         revoke_all(tx, user)
     if not active or role not in ANNOTATORS:

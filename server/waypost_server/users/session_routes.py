@@ -7,7 +7,7 @@ from waypost_server import errors
 from waypost_server.auth import credentials, sessions, tokens
 from waypost_server.auth.attempts import Counted
 from waypost_server.auth.lookup import Cached
-from waypost_server.auth.permissions import Allowed, cookie_of, is_secure, refuse_cross_site
+from waypost_server.auth.permissions import Allowed, address_of, cookie_of, is_secure, refuse_cross_site
 from waypost_server.http.context import Context, Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.problems import refusals
@@ -49,12 +49,14 @@ async def login(body: wire.Login, request: Request, response: Response, context:
     """Exchange the one-time code of a login link for a session cookie."""
     if "sec-fetch-site" in request.headers or "origin" in request.headers:
         refuse_cross_site(request)
-    client = request.client.host if request.client else ""
+    address = address_of(request)
+    client = address or ""
     attempts.check(client)
     seconds = context.settings.session_seconds
-    session = await context.db.write(lambda tx: sessions.redeem(tx, body.code, seconds))
+    session = await context.db.write(lambda tx: sessions.redeem(tx, body.code, seconds, address))
     if session is None:
         attempts.failed(client)
+        request.state.rejected = ("login", credentials.hash_of(body.code))
         raise await context.db.read(lambda tx: sessions.why_refused(tx, body.code))
     _set_cookie(context, request, response, session.secret)
     return await context.db.read(lambda tx: performance.me(tx, session.user))
@@ -64,7 +66,7 @@ async def login(body: wire.Login, request: Request, response: Response, context:
 async def logout(request: Request, response: Response, context: Ctx, cache: Cached, caller: Allowed) -> None:
     """End the browser's session. API tokens stay valid."""
     if caller.by_cookie:
-        await context.db.write(lambda tx: credentials.revoke(tx, caller.credential))
+        await context.db.write(lambda tx: sessions.end_session(tx, caller.credential, caller.actor))
         cache.clear()
     _delete_cookie(request, response)
 
@@ -101,6 +103,6 @@ async def my_sessions(context: Ctx, caller: Allowed) -> wire.SessionList:
 @router.delete("/me/sessions", status_code=204, operation_id="logoutEverywhere")
 async def logout_everywhere(request: Request, response: Response, context: Ctx, cache: Cached, caller: Allowed) -> None:
     """End all of the caller's browser sessions, including this one. API tokens stay valid."""
-    await context.db.write(lambda tx: credentials.revoke_all(tx, caller.user, "session"))
+    await context.db.write(lambda tx: sessions.end_all_sessions(tx, caller.user, caller.actor))
     cache.clear()
     _delete_cookie(request, response)

@@ -8,12 +8,13 @@ from fastapi.responses import StreamingResponse
 from waypost import wire
 from waypost_server import errors
 from waypost_server.auth.permissions import Allowed
+from waypost_server.db.transaction import Tx
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath, RowQuery
 from waypost_server.http.problems import refusals
 from waypost_server.runs import service as runs
-from waypost_server.watch import at_work, export, ledger_rows, query_history, query_rows
+from waypost_server.watch import agreement, at_work, export, ledger_rows, outlook, query_history, query_rows
 from waypost_server.watch.records import reading
 from waypost_server.watch.row_pages import RowPage
 
@@ -73,6 +74,16 @@ async def list_records(
     return await context.db.read(lambda tx: reading.page(tx, run, part, after))
 
 
+@router.get("/runs/{run}/agreement", operation_id="getAgreement", responses=refusals(errors.NotFound))
+async def get_agreement(run: str, context: Ctx, _: Allowed) -> wire.Agreement:
+    """Return how far annotators agree on the queries that two of them answered, by kind of query."""
+
+    def read(tx: Tx) -> wire.Agreement:
+        return agreement.agreement(tx, runs.find(tx, run).id)
+
+    return await context.db.read(read)
+
+
 @router.get("/queries/{query}/history", operation_id="getHistory", responses=refusals(errors.NotFound))
 async def get_history(query: RowPath, context: Ctx, _: Allowed) -> wire.QueryHistory:
     """Return all assignments of a query, their answers, and what they cost."""
@@ -86,6 +97,12 @@ async def list_at_work(context: Ctx, _: Allowed, run: str | None = None) -> wire
     if run is not None:
         await context.db.read(lambda tx: runs.find(tx, run))
     return await context.db.read(lambda tx: at_work.at_work(tx, settings.presence_seconds, settings.lease_seconds, run))
+
+
+@router.get("/outlook", operation_id="getOutlook")
+async def get_outlook(context: Ctx, _: Allowed, run: Word = None) -> wire.Outlook:
+    """Return what the learners do now and when they will ask, for annotators who wait; `run` is the first run."""
+    return await context.db.read(lambda tx: outlook.outlook(tx, run))
 
 
 @router.get(

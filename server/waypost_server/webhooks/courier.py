@@ -4,7 +4,7 @@ import asyncio
 import logging
 import time
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager
 from datetime import UTC, datetime
 from functools import partial
 
@@ -13,6 +13,7 @@ from standardwebhooks import Webhook
 
 from waypost_server.db import wakeups
 from waypost_server.errors import StorageFailed
+from waypost_server.http.background import going_on
 from waypost_server.http.context import VERSION, Context
 from waypost_server.webhooks import outbox, queue
 from waypost_server.webhooks.network import Post
@@ -35,13 +36,8 @@ async def delivering(context: Context) -> AsyncIterator[None]:
     if not context.settings.webhook_hosts:
         yield
         return
-    task = asyncio.create_task(_deliver(context))
-    try:
+    async with going_on(_deliver(context)):
         yield
-    finally:
-        task.cancel()
-        with suppress(asyncio.CancelledError):
-            await task
 
 
 async def _deliver(context: Context) -> None:

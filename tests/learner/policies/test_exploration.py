@@ -1,6 +1,7 @@
 """Exploration goes back to places that were seldom chosen, and then to what succeeded."""
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -23,7 +24,7 @@ def places(actions: Way, origin: int = 0) -> list[int]:
 def explored(*attempts: Way, spec: ExplorationSpec = SPEC) -> Exploration:
     exploration = Exploration(spec, ACTIONS)
     for actions in attempts:
-        exploration.learn(actions, places(actions), reached=False)
+        exploration.learn(actions, places(actions), reached=False, ended=False)
     return exploration
 
 
@@ -54,9 +55,21 @@ def test_a_place_that_was_just_found_is_chosen_before_those_that_were_chosen_oft
     exploration, rng = explored((0, 0, 0)), np.random.default_rng(0)
     for _ in range(60):
         exploration.lead(0, 0.0, rng)
-    exploration.learn((2, 2), places((2, 2)), reached=False)
+    exploration.learn((2, 2), places((2, 2)), reached=False, ended=False)
     chosen = Counter(exploration.lead(0, 0.0, rng).actions[: -SPEC.wander] for _ in range(5))
     assert chosen[(2,)] >= 3
+
+
+def test_a_place_that_no_attempt_outlives_is_chosen_less_often_than_one_that_attempts_outlive() -> None:
+    exploration, rng = explored(spec=replace(SPEC, outlived=3, focus=0.0)), np.random.default_rng(0)
+    for _ in range(9):
+        exploration.learn((2, 2), places((2, 2)), reached=False, ended=True)  # what goes back falls
+        exploration.learn((0, 0), places((0, 0)), reached=False, ended=False)
+        exploration.learn((0,) * 4, places((0,) * 4), reached=False, ended=True)  # place 1 is outlived, 2 is not
+        exploration.learn((3, 0, 3), places((3, 0, 3)), reached=False, ended=False)  # cut off, which tells nothing
+    chosen = Counter(exploration.lead(0, 0.0, rng).actions[: -SPEC.wander] for _ in range(2000))
+    assert chosen[(0,)] > 50 * max(chosen[(2,)], chosen[(0, 0)])
+    assert chosen[(2,)] > 0  # it was safe to be there in no attempt, but it is not given up
 
 
 def test_random_actions_are_repeated_as_often_as_the_specification_says() -> None:
@@ -70,7 +83,7 @@ def test_random_actions_are_repeated_as_often_as_the_specification_says() -> Non
 def test_after_a_success_some_attempts_begin_with_a_part_of_it_until_the_policy_succeeds_by_itself() -> None:
     exploration, rng = explored((0, 0)), np.random.default_rng(0)
     success = (0, 1, 2, 3, 0, 1)
-    assert exploration.learn(success, places(success), reached=True)
+    assert exploration.learn(success, places(success), reached=True, ended=False)
     leads = [exploration.lead(0, 0.49, rng) for _ in range(200)]
     assert all(not lead.whole and lead.actions == success[: len(lead.actions)] for lead in leads)
     assert {len(lead.actions) for lead in leads} == set(range(len(success)))
@@ -81,10 +94,10 @@ def test_after_a_success_some_attempts_begin_with_a_part_of_it_until_the_policy_
 
 def test_only_the_shortest_successes_are_kept_and_shown() -> None:
     exploration = explored()
-    shown = [exploration.learn((0,) * n, places((0,) * n), reached=True) for n in (5, 4, 6, 3, 4)]
+    shown = [exploration.learn((0,) * n, places((0,) * n), reached=True, ended=False) for n in (5, 4, 6, 3, 4)]
     assert shown == [True, True, False, True, True]
     assert [len(way) for way in exploration.known["0"].successes] == [3, 4]
-    assert not exploration.learn((0,), places((0,)), reached=False)
+    assert not exploration.learn((0,), places((0,)), reached=False, ended=False)
 
 
 @examples
@@ -92,7 +105,7 @@ def test_only_the_shortest_successes_are_kept_and_shown() -> None:
 def test_what_is_known_comes_back_from_json(attempts: list[Way], succeeded: bool) -> None:
     exploration = explored(*attempts)
     if succeeded:
-        exploration.learn((1, 1), places((1, 1)), reached=True)
+        exploration.learn((1, 1), places((1, 1)), reached=True, ended=False)
     exploration.lead(0, 0.0, np.random.default_rng(1))
     other = Exploration(SPEC, ACTIONS)
     other.load(exploration.to_json())

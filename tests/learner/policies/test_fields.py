@@ -10,6 +10,7 @@ import torch
 from tests.learner.policies.fields_kit import TRAIN, briefly, demonstrated, maze, seen, taught, teach
 from torch.nn import functional
 
+from waypost.trajectory import Segment
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.maze.maze import MOVES
 from waypost_learner.policies.fields import agent_finder
@@ -82,6 +83,38 @@ def test_a_flat_policy_learns_with_the_same_network() -> None:
             good += int((logits.argmax(1) == np.array(segment.actions)).sum())
             steps += len(segment.actions)
     assert good / steps > 0.5  # one of four; often two actions are right, and one was shown
+
+
+def test_ends_of_subgoals_are_looked_for_as_far_away_as_subgoals_ended_so_far() -> None:
+    def moved(segment: Segment) -> int:
+        return max(
+            abs(after - before) for before, after in zip(segment.start.view, segment.states[-1].view, strict=True)
+        )
+
+    learner = taught(briefly(1), 3)
+    assert learner.shared is not None
+    network = learner.shared.network
+    assert learner.shared.acting.reach == network.reach
+    assert network.reach == max(moved(one) for instance in TRAIN[:3] for one in demonstrated(instance))
+    for segment in demonstrated(TRAIN[500]):
+        network.look_as_far_as(
+            *(torch.from_numpy(one.observation[None]) for one in (segment.start, segment.states[-1]))
+        )
+        assert network.reach == moved(segment)
+    told = taught(briefly(1, fields=FieldSpec(reach=2)), 3)
+    assert told.shared is not None
+    assert told.shared.network.reach == 2
+
+
+def test_a_subpolicy_that_sees_no_end_of_its_subgoal_acts_for_the_task() -> None:
+    learner, observations = taught(briefly(50), 3), seen(1)[0]
+    assert learner.shared is not None
+    before = learner.shared.outputs(observations)
+    for_the_task = before["flat"].unsqueeze(1).expand_as(before["lo"])
+    assert not torch.allclose(before["lo"], for_the_task, atol=0.1)
+    with torch.no_grad():
+        learner.shared.acting.near[2].bias.fill_(-1e3)  # the network finds no end anywhere
+    torch.testing.assert_close(learner.shared.outputs(observations)["lo"], for_the_task)
 
 
 def test_only_what_was_observed_reaches_the_network() -> None:
@@ -158,14 +191,14 @@ def test_values_of_the_shared_network_are_refused_where_there_is_none() -> None:
         refused("fields.far=8", "hg-dagger-q")()
 
 
-@pytest.mark.parametrize("values", ["fields.reach=0", "fields.ending=0", "fields.gain=0.0"])
+@pytest.mark.parametrize("values", ["fields.far=0", "fields.reach=0", "fields.ending=0", "fields.gain=0.0"])
 def test_sizes_out_of_their_range_are_refused(values: str) -> None:
-    with pytest.raises(ValueError, match="fields need far, near, reach"):
+    with pytest.raises(ValueError, match="fields need far, reach"):
         refused(values)()
 
 
 def test_steps_that_could_grow_beyond_all_numbers_are_refused() -> None:
-    with pytest.raises(ValueError, match="smaller far, near or gain"):
+    with pytest.raises(ValueError, match="smaller far or gain"):
         refused("fields.far=2000")()
 
 
@@ -175,7 +208,7 @@ def test_a_shared_network_needs_an_average_of_its_weights() -> None:
 
 
 def test_fields_stay_finite_over_many_steps() -> None:
-    network = FieldNet(3, 5, 4, FieldSpec(far=300), torch.Generator().manual_seed(0))
+    network = FieldNet((3, 17, 17), 5, 4, FieldSpec(far=300), torch.Generator().manual_seed(0))
     with torch.no_grad():
         for gate in (-50.0, 50.0):  # all open, all shut
             network.gates[2].bias.fill_(gate)

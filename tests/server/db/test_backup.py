@@ -1,5 +1,6 @@
 """Backups: whole and of one moment, also while a server writes; a backup that was broken off leaves no file."""
 
+import json
 import os
 import signal
 import sqlite3
@@ -51,13 +52,14 @@ def test_what_is_backed_up_while_a_server_writes_is_restored_whole(
         writing = threading.Thread(target=answer_all, args=[service, stop])
         writing.start()
         time.sleep(0.5)
+        *_, log = json.loads(run("check", "--json", "--database", database_url))
         for number in range(3):
             assert "Backed up" in run("backup", str(tmp_path / f"{number}"), "--database", database_url)
         stop.set()
         writing.join()
         spent = service.viewer.get("/runs")["runs"][0]["spent"]
     run("restore", str(tmp_path / "2"), "--database", elsewhere)
-    assert "WRONG" not in run("check", "--database", elsewhere)
+    assert "WRONG" not in run("check", "--audit-head", log["head"], "--database", elsewhere)
     with in_process(elsewhere) as restored:
         assert 0 < restored.viewer.get("/runs")["runs"][0]["spent"] <= spent
 

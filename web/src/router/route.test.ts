@@ -21,9 +21,16 @@ it.each([
   ['/runs/a%2Fb/gold', '', { view: 'gold', run: 'a/b' }],
   ['/people', '', { view: 'people' }],
   ['/people/12', '', { view: 'person', user: 12 }],
+  ['/people/audit', '?actor=ada', { view: 'audit' }],
+  ['/people/audit/1', '', { view: 'nowhere' }],
   ['/people/0x1', '', { view: 'nowhere' }],
   ['/me', '', { view: 'me' }],
-  ['/practice', '', { view: 'practice' }],
+  ['/practice', '', { view: 'practice', first: false, work: '/work' }],
+  [
+    '/practice',
+    '?first=yes&without=label_lo',
+    { view: 'practice', first: true, work: '/work?without=label_lo' },
+  ],
   ['/else', '', { view: 'nowhere' }],
 ])('%s%s leads somewhere', (path, search, route) => {
   expect(parseRoute(path, search)).toEqual(route);

@@ -45,3 +45,10 @@ const DAY = new Intl.DateTimeFormat('en-GB', { dateStyle: 'medium' });
 export function day(at: number): string {
   return DAY.format(at * 1000);
 }
+
+const CLOCK = new Intl.DateTimeFormat('en-GB', { dateStyle: 'medium', timeStyle: 'medium' });
+
+/** Return a time as text: 3 Mar 2026, 14:05:09. */
+export function moment(at: number): string {
+  return CLOCK.format(at * 1000);
+}

@@ -55,6 +55,14 @@ class Shell {
 
 export const shell = new Shell();
 
+/**
+ * Return whether a user reads prices, budgets and the paper's names of the queries. They are for the people who run the
+ * learner and pay for it; annotators read plain words and their own session.
+ */
+export function readsPrices(me: Me | null): boolean {
+  return me !== null && me.role !== 'annotator';
+}
+
 /** Return whether a user may see single queries. Annotators may not: they could tell gold queries from others. */
 export function maySeeQueries(me: Me | null): boolean {
   return me !== null && me.role !== 'annotator';

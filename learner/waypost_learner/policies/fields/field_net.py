@@ -22,9 +22,8 @@ _LARGEST = 600.0  # the logarithm of about the largest number of float64
 class FieldSpec:
     """Sizes of a network that spreads fields."""
 
-    far: int = 64  # steps over which the task's field spreads
-    near: int = 12  # steps over which the field of a subgoal's ends spreads
-    reach: int = 5  # pixels from the agent to the farthest end of a subgoal, in each direction
+    far: int = 64  # the most steps over which a field spreads
+    reach: int | None = None  # pixels to the farthest end of a subgoal; as far as subgoals ended so far if None
     ending: int = 3  # pixels from the agent that beta_g sees, in each direction
     features: int = 32  # of a pixel, for the ends of subgoals
     hidden: int = 64  # units of beta_g
@@ -37,12 +36,11 @@ class FieldSpec:
         Raises:
             ValueError: a number is out of its range, or fields could grow beyond float64; the message says which.
         """
-        if min(self.far, self.near, self.reach, self.ending, self.features, self.hidden) < 1 or self.gain <= 0:
-            raise ValueError(
-                "fields need far, near, reach, ending, features and hidden of at least 1, and gain above 0"
-            )
-        if max(self.far, self.near) * math.log(self.gain) > _LARGEST:
-            raise ValueError("fields could grow beyond all numbers: choose a smaller far, near or gain")
+        reach = 1 if self.reach is None else self.reach
+        if min(self.far, reach, self.ending, self.features, self.hidden) < 1 or self.gain <= 0:
+            raise ValueError("fields need far, reach, ending, features and hidden of at least 1, and gain above 0")
+        if self.far * math.log(self.gain) > _LARGEST:
+            raise ValueError("fields could grow beyond all numbers: choose a smaller far or gain")
 
 
 _GATE_FEATURES = 16
@@ -51,6 +49,7 @@ _GATE_FEATURES = 16
 _SHARP_GATES, _SHARP_SOURCE = 6.0, 15.0
 _OPEN = -1 / 3  # the first output of the gates, before its multiple: at first almost everything can be passed
 _FAINT = -3.0  # the first logit of a subgoal's ends
+_DETOUR = 2  # steps that the way to a corner of the square around the agent may take beyond the shortest
 _LEAST = 1e-300  # about the smallest number whose logarithm float64 can tell
 
 
@@ -60,18 +59,22 @@ class FieldNet(nn.Module):
     A field h spreads from a source e through gates p between 0 and 1: h <- p * (W @ h) + e. W adds the neighboring
     pixels to which actions move the agent, each action with the same weight. It is a soft value iteration (Tamar et al.
     2016) in exp(V). The task's field spreads from where the task ends, a subgoal's field from where the subgoal ends.
-    pi_g climbs the subgoal's field. For mu, each end of a subgoal counts as much as the task's field there.
+    pi_g climbs the subgoal's field. For mu, each end of a subgoal counts as much as the task's field there. Ends of
+    subgoals are looked for as far from the agent as subgoals have ended so far (`reach`).
 
     Args:
-        channels: of the pictures.
+        shape: (channels, rows, columns) of the pictures.
         n_subgoals: the number of subgoals.
         n_actions: the number of actions.
         spec: the sizes.
         rng: draws initial weights.
     """
 
-    def __init__(self, channels: int, n_subgoals: int, n_actions: int, spec: FieldSpec, rng: torch.Generator) -> None:
+    def __init__(
+        self, shape: tuple[int, ...], n_subgoals: int, n_actions: int, spec: FieldSpec, rng: torch.Generator
+    ) -> None:
         super().__init__()
+        channels, *sides = shape
         self.spec, self.n_actions = spec, n_actions
         self.finder = AgentFinder(channels, n_actions).requires_grad_(False)
         self.register_buffer("displacements", torch.full((n_actions, 9), 1 / 9))
@@ -87,9 +90,13 @@ class FieldNet(nn.Module):
                 nn.Conv2d(spec.features, n_subgoals, 1),
             ]
         )
-        side = 2 * spec.reach + 1
+        self._farthest = max(sides) - 1
+        side = 2 * self._farthest + 1  # of a square around the agent that holds the picture wherever the agent is
         self.place = nn.Parameter(torch.zeros(spec.features, side, side))  # tells apart pixels around the agent
         self.ends_place = nn.Parameter(torch.zeros(n_subgoals, side, side))
+        self.reach: torch.Tensor
+        # Pixels around the agent, in each direction, among which ends of subgoals are looked for.
+        self.register_buffer("reach", torch.tensor(min(spec.reach or 1, self._farthest)))
         self.termination = nn.Sequential(
             nn.Flatten(),
             nn.Linear(channels * (2 * spec.ending + 1) ** 2, spec.hidden),
@@ -111,24 +118,37 @@ class FieldNet(nn.Module):
         self.finder.requires_grad_(False)
         self.displacements = self.finder.displacements(transitions)
 
+    def look_as_far_as(self, chosen: torch.Tensor, ended: torch.Tensor) -> None:
+        """Look for ends of subgoals as far from the agent as subgoals ended, unless `FieldSpec.reach` says how far.
+
+        Args:
+            chosen: the pictures in which subgoals were chosen, float32[N, C, rows, columns].
+            ended: the pictures in which they ended.
+        """
+        if self.spec.reach is None:
+            moved = (self.finder.find(ended) - self.finder.find(chosen)).abs().max()
+            self.reach = moved.clamp(1, self._farthest)
+
     def forward(self, x: torch.Tensor) -> dict[str, torch.Tensor]:
         """Return all outputs for pictures float32[B, C, rows, columns].
 
         `hi` float32[B, subgoals]: logits of mu. `lo` float32[B, subgoals, actions]: logits of each pi_g.
+        `seen` float32[B, subgoals]: how likely it is that the subgoal ends in the pixel where this is likeliest.
         `termination` float32[B, subgoals]: logits of each beta_g. `flat` float32[B, actions]: logits of a flat policy.
         """
-        spec, agent = self.spec, self.finder.find(x)
+        spec, agent, reach = self.spec, self.finder.find(x), int(self.reach)
         gates = torch.sigmoid(-_SHARP_GATES * self.gates(x)).double()
         source = torch.softmax(_SHARP_SOURCE * self.source(x).flatten(1), 1).view_as(gates).double()
         task = self._spread(gates, source, spec.far)
-        patch, near_gates, near_task = (_around(one, agent, spec.reach) for one in (x, gates, task))
+        patch, near_gates, near_task = (_around(one, agent, reach) for one in (x, gates, task))
         ends = near_gates * torch.sigmoid(self._ends(patch)).double()  # a subgoal ends only where one can pass
         both = torch.cat([ends, ends * near_task], 1)
-        subgoals = self._spread(near_gates.expand_as(both), both, spec.near)
+        subgoals = self._spread(near_gates.expand_as(both), both, min(2 * reach + _DETOUR, spec.far))
         lo, hi = subgoals.chunk(2, 1)
         return {
-            "hi": torch.log(hi[:, :, spec.reach, spec.reach] + _LEAST).float(),
-            "lo": self._climb(lo[:, :, spec.reach - 1 : spec.reach + 2, spec.reach - 1 : spec.reach + 2]),
+            "hi": torch.log(hi[:, :, reach, reach] + _LEAST).float(),
+            "lo": self._climb(lo[:, :, reach - 1 : reach + 2, reach - 1 : reach + 2]),
+            "seen": ends.flatten(2).amax(2).float(),
             "termination": self.termination(_around(x, agent, spec.ending)),
             "flat": self._climb(_around(task, agent, 1)).squeeze(1),
         }
@@ -136,8 +156,13 @@ class FieldNet(nn.Module):
     def _ends(self, patch: torch.Tensor) -> torch.Tensor:
         """Return the logits of each subgoal's ends float32[B, subgoals, side, side] around the agent."""
         first, second, third = self.near
-        seen = functional.relu(second(functional.relu(first(patch))) + self.place)
-        return torch.add(third(seen), self.ends_place)
+        place, ends_place = (self._around_middle(one, patch.shape[3] // 2) for one in (self.place, self.ends_place))
+        seen = functional.relu(second(functional.relu(first(patch))) + place)
+        return torch.add(third(seen), ends_place)
+
+    def _around_middle(self, x: torch.Tensor, reach: int) -> torch.Tensor:
+        span = slice(self._farthest - reach, self._farthest + reach + 1)
+        return x[:, span, span]
 
     def _spread(self, gates: torch.Tensor, source: torch.Tensor, steps: int) -> torch.Tensor:
         """Spread fields float64[B, K, rows, columns]."""

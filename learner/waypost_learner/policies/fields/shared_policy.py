@@ -21,9 +21,12 @@ from waypost_learner.policies.labels import transformed_rows
 from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey
 from waypost_learner.rollout.rollout import Outputs
 
-_TRANSITIONS = 1_000  # with as many, the agent is no longer looked for
+_MOST_SEEN = 1_000  # transitions, or subgoals that ended; more are not kept, and the agent is no longer looked for
 _CLIP = 1.0  # the largest norm of a gradient
 _FLAT_WEIGHT = 0.3  # of the loss of flat actions beside a hierarchy, which gets no labels for them
+# Where the likeliest pixel is an end of the subgoal with this probability, pi_g acts half for the subgoal and half for
+# the task. Values from 0.001 to 0.05 did equally well.
+_UNSEEN = 0.01
 _HALF_RATE = 400  # updates after which the learning rate is half of the first one ...
 _LEAST_RATE = 0.2  # ... of which this share remains
 
@@ -75,7 +78,7 @@ class SharedPolicy:
         self.spec, self._told, self._n_subgoals = train, symmetries, n_subgoals
         self._shape, self._n_actions = observation_shape, n_actions
         self.rng = torch.Generator().manual_seed(seed)
-        self.network = FieldNet(observation_shape[0], n_subgoals, n_actions, network, self.rng).to(DEVICE).eval()
+        self.network = FieldNet(observation_shape, n_subgoals, n_actions, network, self.rng).to(DEVICE).eval()
         self._trained = [one for one in self.network.parameters() if one.requires_grad]  # not those that find the agent
         self.optimizer = torch.optim.AdamW(
             self._trained,
@@ -86,6 +89,7 @@ class SharedPolicy:
         decaying = get_ema_multi_avg_fn(train.averaging)  # type: ignore[no-untyped-call]  # torch has no types here
         self.average = AveragedModel(self.network, multi_avg_fn=decaying)
         self.transitions = Dataset((2, *observation_shape))  # pictures before and after an action
+        self.ends = Dataset((2, *observation_shape))  # pictures in which a subgoal was chosen, and in which it ended
 
     @property
     def acting(self) -> nn.Module:
@@ -112,13 +116,15 @@ class SharedPolicy:
 
     @torch.inference_mode()
     def outputs(self, observations: Observation) -> dict[str, torch.Tensor]:
-        """Return the outputs of `FieldNet` for observations float32 or uint8[B, C, rows, columns].
+        """Return what the policies do, as `FieldNet` does, for observations float32 or uint8[B, C, rows, columns].
 
-        With symmetries, logarithms of probabilities, and logits of terminations, are averages over them.
+        The less an end of a subgoal is seen, the more its pi_g acts as a flat policy does. With symmetries, logarithms
+        of probabilities, and logits of terminations, are averages over them.
         """
         n, symmetries = len(observations), self.symmetries
         seen = [observations, *(np.stack([each.observe(one) for one in observations]) for each in symmetries)]
         out = self.acting(as_input(np.concatenate(seen)).to(DEVICE))
+        out["lo"] = _mixed(out["lo"], out["flat"].unsqueeze(1), _UNSEEN / (_UNSEEN + out["seen"].unsqueeze(2)))
         subgoals: list[slice | list[int]] = [slice(None), *(list(each.subgoals) for each in symmetries)]
         actions: list[slice | list[int]] = [slice(None), *(list(each.actions) for each in symmetries)]
 
@@ -140,19 +146,27 @@ class SharedPolicy:
         """Return one policy as a function of observations."""
         return PartPolicy(self, key)
 
-    def see(self, transitions: Sequence[Row]) -> None:
-        """Learn where the agent is in a picture, and where each action moves it, until enough transitions were seen.
+    def see(self, transitions: Sequence[Row], ends: Sequence[Row]) -> None:
+        """Learn where the agent is in a picture, where each action moves it, and how far away subgoals end.
 
         Args:
             transitions: rows of [2, observation shape], the pictures before and after the choice.
+            ends: rows of [2, observation shape], the pictures in which a subgoal was chosen, and in which it ended.
         """
-        if not transitions or len(self.transitions) >= _TRANSITIONS:
+        kept = len(self.ends)
+        self.ends.append(ends[: _MOST_SEEN - kept])
+        if transitions and len(self.transitions) < _MOST_SEEN:
+            self.transitions.append(transitions)
+            pictures, labels = (one.to(DEVICE) for one in self.transitions[range(len(self.transitions))])
+            self.network.find_agent((pictures[:, 0], labels[:, 0], pictures[:, 1]), self.rng)
+        elif kept == len(self.ends):
             return
-        self.transitions.append(transitions)
-        pictures, labels = (one.to(DEVICE) for one in self.transitions[range(len(self.transitions))])
-        self.network.find_agent((pictures[:, 0], labels[:, 0], pictures[:, 1]), self.rng)
+        if len(self.ends):
+            pictures = self.ends[range(len(self.ends))][0].to(DEVICE)
+            self.network.look_as_far_as(pictures[:, 0], pictures[:, 1])
+        for name in ("displacements", "reach"):
+            setattr(self._acting, name, getattr(self.network, name).clone())
         self._acting.finder.load_state_dict(self.network.finder.state_dict())
-        self._acting.displacements = self.network.displacements.clone()
 
     def train(self, data: Data) -> None:
         """Train(policy, D) for all policies together: passes over all rows, each in a new random order."""
@@ -232,6 +246,12 @@ class PartPolicy:
             return Outputs(out["flat"].cpu().numpy(), none)
         ending = torch.sigmoid(out["termination"][:, self._key.subgoal])
         return Outputs(out["lo"][:, self._key.subgoal].cpu().numpy(), ending.cpu().numpy())
+
+
+def _mixed(logits: torch.Tensor, others: torch.Tensor, share: torch.Tensor) -> torch.Tensor:
+    """Return the logarithms of probabilities of which a share comes from other logits."""
+    ours, theirs = torch.log_softmax(logits, -1), torch.log_softmax(others, -1)
+    return torch.logaddexp(torch.log1p(-share) + ours, torch.log(share) + theirs)
 
 
 def _cross_entropy(logits: torch.Tensor, labels: torch.Tensor) -> torch.Tensor:

@@ -50,10 +50,3 @@ export const ENTRIES: Readonly<Record<LedgerEntry['entry'], string>> = {
   charge: 'charge',
   refund: '↩ refund',
 };
-
-const CLOCK = new Intl.DateTimeFormat('en-GB', { dateStyle: 'medium', timeStyle: 'medium' });
-
-/** Return a time as text: 3 Mar 2026, 14:05:09. */
-export function moment(at: number): string {
-  return CLOCK.format(at * 1000);
-}
