@@ -79,6 +79,9 @@ def train(
     environments: Annotated[
         int | None, typer.Option(min=1, help="Environments that step together in training. Default: 1.")
     ] = None,
+    test_every: Annotated[
+        int | None, typer.Option(min=1, help="Episodes from one test to the next. Default: the domain's, or 1.")
+    ] = None,
     resume: Annotated[bool, typer.Option(help="Continue your newest unfinished run with these options.")] = False,
     name: Annotated[str | None, typer.Option(help="The run's name.")] = None,
     budget: Annotated[float | None, typer.Option(min=0, help="The highest cost of the run, in units.")] = None,
@@ -119,6 +122,7 @@ def train(
             redraw,
             head_start,
             environments,
+            test_every,
             told,
             " ".join(values) if values else None,
         )

@@ -1,7 +1,7 @@
 """A learner: its policies, the data buffers they learn from, and rollouts under them."""
 
 import os
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Collection, Hashable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
@@ -285,18 +285,21 @@ class Learner:
     def _experience_of(self, labels: Labels) -> Iterator[tuple[PolicyKey, Experience]]:
         """Yield what Q-functions learn from: rollouts, and demonstrated segments, which end where they reached."""
         for key, trajectory in labels.experience:
-            best = [self._explored(key, segment) for segment in trajectory if key in self.explorations]
-            yield key, replace(self._experience(key, trajectory), demonstrated=any(best))
+            experience = self._experience(key, trajectory)
+            if key in self.explorations:
+                (segment,) = trajectory
+                experience = replace(experience, demonstrated=self._explored(key, segment))
+            yield key, experience
         for segment in chain.from_iterable(labels.demonstrations):
             if segment.subgoal is not None:
                 key = pi(segment.subgoal)
                 shown = replace(segment, outcome="reached") if segment.terminated else segment
                 if key in self.explorations:
                     self._explored(key, shown)
-                yield key, replace(self._experience(key, (shown,)), alone=False, demonstrated=True)
+                yield key, replace(self._experience(key, (shown,)), alone=False, demonstrated=range(len(shown.actions)))
 
-    def _explored(self, key: PolicyKey, segment: Segment) -> bool:
-        """Let a subgoal's exploration learn from a segment; return whether it is one of the shortest successes."""
+    def _explored(self, key: PolicyKey, segment: Segment) -> Collection[int]:
+        """Let a subgoal's exploration learn from a segment; return the states whose choices should be imitated."""
         places = [self._place(state.view) for state in segment.states]
         return self.explorations[key].learn(segment.actions, places, segment.outcome == "reached", segment.final)
 

@@ -3,11 +3,11 @@
 Until the first success, an attempt repeats the actions of an earlier one up to a place that was seldom chosen, then
 acts at random (Go-Explore, Ecoffet et al. 2021). Places that attempts seldom outlive, such as those of a deadly fall,
 are chosen less often. After the first success, some attempts begin with a part of a success, until the policy succeeds
-often by itself (Jump-Start RL, Uchendu et al. 2023). The shortest successes are learned from as demonstrations.
+often by itself (Jump-Start RL, Uchendu et al. 2023). The shortest successes are imitated, without their detours.
 """
 
 import json
-from collections.abc import Hashable, Sequence
+from collections.abc import Collection, Hashable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -76,8 +76,13 @@ class Exploration:
         way = known.successes[rng.integers(len(known.successes))]
         return Lead(way[: rng.integers(len(way))])
 
-    def learn(self, actions: Sequence[Action], places: Sequence[Hashable], reached: bool, ended: bool) -> bool:
-        """Learn from an attempt, and return whether it is one of the shortest successes.
+    def learn(
+        self, actions: Sequence[Action], places: Sequence[Hashable], reached: bool, ended: bool
+    ) -> Collection[int]:
+        """Learn from an attempt, and return the steps whose actions should be imitated.
+
+        These are the steps of one of the shortest successes with which it left a place for good. What it did before in
+        that place may have been a detour or mere waiting, which a policy that imitates it would never end.
 
         Args:
             actions: the H actions of the attempt.
@@ -86,7 +91,8 @@ class Exploration:
             ended: whether the attempt ended the episode.
         """
         known = self._at(places[0])
-        for place, step in {str(place): step for step, place in enumerate(places[:-1])}.items():  # the last time there
+        last = {str(place): step for step, place in enumerate(places[:-1])}  # the last step in each place
+        for place, step in last.items():
             if reached or len(actions) - step >= self.spec.outlived:
                 known.outlived[place] = known.outlived.get(place, 0) + 1
             elif ended:
@@ -96,11 +102,11 @@ class Exploration:
                 known.ways[place] = tuple(actions[:step])
                 known.chosen.setdefault(place, 0)
         if not reached:
-            return False
+            return ()
         known.successes.append(tuple(actions))
         known.successes.sort(key=len)
         del known.successes[self.spec.kept :]
-        return len(actions) <= len(known.successes[-1])
+        return frozenset(last.values()) if len(actions) <= len(known.successes[-1]) else ()
 
     def to_json(self) -> str:
         """Return what is known as JSON, for a checkpoint."""

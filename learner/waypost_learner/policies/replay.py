@@ -71,7 +71,7 @@ class Replay:
         highest = float(self._columns["priority"][: self._size].max()) if self._size else 1.0
         planes = self._split(experience.observations)
         for one in experience.transitions:
-            self._append(one, planes, experience.demonstrated, highest)
+            self._append(one, planes, one.state in experience.demonstrated, highest)
 
     def _split(self, observations: Sequence[Observation]) -> list[list[Plane]]:
         """Return the planes of observations; equal planes of neighbors are one object."""

@@ -51,6 +51,8 @@ def level_of(preset: Preset, q_functions: bool) -> str:
     used = preset.use
     if q_functions and preset.training.dqn.symmetries:
         used = replace(used, symmetries=True)
+    if preset.training.fields is not None and preset.training.fields.reach is not None:
+        used = replace(used, crop=True)  # how far away subgoals end: how much around the agent matters
     for level, allowed in LEVELS.items():
         within = all(not value or value == vars(allowed)[name] for name, value in vars(used).items())
         if within and not _uses_places(preset, q_functions):

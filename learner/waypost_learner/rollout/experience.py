@@ -1,6 +1,6 @@
 """Turn the segments of a rollout into experience, from which Q-functions learn."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -30,7 +30,7 @@ class Experience:
     transitions: tuple[Transition, ...]
     outcome: Outcome | None = None  # of the subgoal; None if it was cut off, or for other experience
     alone: bool = True  # whether only the policy chose, so that it is an attempt of its own
-    demonstrated: bool = False  # whether to imitate the choices: an expert's, or those of one of the shortest successes
+    demonstrated: Collection[int] = ()  # the states whose choices should be imitated
 
     def observed(self, observe: Callable[[Observation], Observation]) -> "Experience":
         """Return the same experience with each observation mapped by `observe`."""

@@ -23,6 +23,7 @@ class TrainConfig:
     redraw: bool = False  # draw instances until the learner fails on one, as the authors count episodes
     head_start: float | None = None  # share of an optimal trajectory that is carried out before the learner begins
     environments: int | None = None  # that step together in training rollouts; 1 if None
+    test_every: int | None = None  # episodes from one test to the next; the number that the domain declares if None
     told: str | None = None  # the level of what the learner is told of the domain; what the preset uses if None
     values: str | None = None  # values that replace the preset's: "relabeling=false train_hi.batch=32"
 

@@ -252,7 +252,8 @@ class Driver:
         self._learner.learn(episode.labels)
         if episode.passed is not None:
             self._passes = self._passes + 1 if episode.passed else 0
-        tested = (episode.number + 1) % interval_of_tests(self._learner.domain) == 0
+        test_every = self._config.test_every or interval_of_tests(self._learner.domain)
+        tested = (episode.number + 1) % test_every == 0
         if tested:
             self._test(episode.number)
         result = self._result(episode, tested)

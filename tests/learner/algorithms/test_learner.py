@@ -249,6 +249,7 @@ def test_only_what_the_policy_did_alone_counts_as_an_attempt_and_the_best_succes
     assert (q.attempts, q.succeeded, replay.tensors()["demonstrated"].tolist()[3:]) == (deque(), True, [True] * 3)
     learn(learner, attempted((1, 0, 1, 1, 1), led=False))
     assert list(q.attempts) == [True]
+    assert replay.tensors()["demonstrated"].tolist()[6:] == [False, False, True, True, True]  # not the detour
     assert learner.explorations[pi(1)].known["1"].successes == [(1, 1, 1), (1, 0, 1, 1, 1)]
 
 

@@ -144,7 +144,7 @@ def test_a_demonstration_is_a_success_but_no_attempt() -> None:
 def test_a_demonstrated_choice_exceeds_the_others_by_a_margin() -> None:
     """Both actions of the last cell bring the same; only the demonstration makes one better."""
     both = Experience((one_hot(0),), (Transition(0, 0, 0.0, 0, 0), Transition(0, 1, 0.0, 0, 0)))
-    shown = replace(both, transitions=both.transitions[:1], demonstrated=True)
+    shown = replace(both, transitions=both.transitions[:1], demonstrated=(0,))
     gaps = []
     for demonstration in (both, shown):
         q = QFunction((5,), 2, NETWORK, replace(SPEC, margin=0.5), 0)

@@ -83,7 +83,7 @@ def test_random_actions_are_repeated_as_often_as_the_specification_says() -> Non
 def test_after_a_success_some_attempts_begin_with_a_part_of_it_until_the_policy_succeeds_by_itself() -> None:
     exploration, rng = explored((0, 0)), np.random.default_rng(0)
     success = (0, 1, 2, 3, 0, 1)
-    assert exploration.learn(success, places(success), reached=True, ended=False)
+    assert exploration.learn(success, places(success), reached=True, ended=False) != ()
     leads = [exploration.lead(0, 0.49, rng) for _ in range(200)]
     assert all(not lead.whole and lead.actions == success[: len(lead.actions)] for lead in leads)
     assert {len(lead.actions) for lead in leads} == set(range(len(success)))
@@ -92,12 +92,20 @@ def test_after_a_success_some_attempts_begin_with_a_part_of_it_until_the_policy_
     assert exploration.lead("elsewhere", 0.49, rng).whole  # from there, nothing succeeded yet
 
 
-def test_only_the_shortest_successes_are_kept_and_shown() -> None:
+def test_only_the_shortest_successes_are_kept_and_imitated() -> None:
     exploration = explored()
-    shown = [exploration.learn((0,) * n, places((0,) * n), reached=True, ended=False) for n in (5, 4, 6, 3, 4)]
-    assert shown == [True, True, False, True, True]
+    imitated = [len(exploration.learn((0,) * n, places((0,) * n), True, False)) for n in (5, 4, 6, 3, 4)]
+    assert imitated == [5, 4, 0, 3, 4]
     assert [len(way) for way in exploration.known["0"].successes] == [3, 4]
     assert not exploration.learn((0,), places((0,)), reached=False, ended=False)
+
+
+def test_of_a_success_only_the_steps_that_left_a_place_for_good_are_imitated() -> None:
+    exploration = explored()
+    way = (0, 2, 0, 0, 2, 0, 0)  # places 0, 1, 0, 1, 2, 1, 2 and then 3
+    assert exploration.learn(way, places(way), reached=True, ended=False) == {2, 5, 6}
+    waited = ["here", "here", "here", "there"]
+    assert exploration.learn((1, 1, 0), waited, reached=True, ended=False) == {2}
 
 
 @examples

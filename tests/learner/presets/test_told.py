@@ -73,6 +73,8 @@ def test_values_may_use_less_than_the_level_but_not_more() -> None:
     ):
         with pytest.raises(ValueError, match=rf"than --told {told} allows: leave .* --told {least}"):
             find_preset("lean", values, told=told)
+    with pytest.raises(ValueError, match=r"than --told nothing allows: leave .* --told crop"):
+        find_preset("general", "fields.reach=5", told="nothing")
     with pytest.raises(ValueError, match=r"there is no level 'much'.* nothing, symmetries, centered, crop, structure"):
         find_preset("lean", told="much")
 

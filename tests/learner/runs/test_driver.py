@@ -93,6 +93,14 @@ def test_several_environments_step_together_and_their_episodes_are_open_at_once(
     assert most_open == 4
 
 
+def test_fewer_tests_change_nothing_but_the_tests(tmp_path: Path) -> None:
+    config = corridor(algorithm="hg-dagger-q", episodes=15)
+    weights, cost, *_, (_, tests, *_), asked = at_once(tmp_path / "each", config)
+    fewer = at_once(tmp_path / "fewer", replace(config, test_every=4))
+    assert (fewer[0], fewer[1], fewer[-1]) == (weights, cost, asked)
+    assert fewer[-2][1] == [test if (episode + 1) % 4 == 0 else None for episode, test in enumerate(tests)]
+
+
 @pytest.mark.parametrize("in_flight", [1, 3])
 def test_training_on_and_asking_less_depend_on_nobodys_pace(tmp_path: Path, in_flight: int) -> None:
     train_idle = " ".join(f"train_{level}.idle=32" for level in ("hi", "lo"))
