@@ -2,7 +2,7 @@
 
 Each run is cut at a share of its units, and forecast from what was known then. Runs with even seeds chose the constants
 of `server/waypost_server/runs/futures.py`; the tables are of the others, and of the even ones apart. A run is never
-among the finished runs that its own forecast uses. It writes `backtest.csv`, with one row per forecast, and prints
+among the finished runs that its own forecast uses. It writes `backtest.csv.gz`, with one row per forecast, and prints
 tables. It asserts nothing. `--score` prints only the mean score of the even seeds: lower is better.
 """
 
@@ -220,7 +220,7 @@ def write(path: Path, found: Sequence[Case]) -> None:
     def cell(units: float | None) -> str:
         return "" if units is None or units == math.inf else f"{units:.6g}"
 
-    with path.open("w", newline="") as file:
+    with gzip.open(path, "wt", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         names = ("chose", *SETTINGS[:4], "values", "seed", "target", "part", "information", "spent", "truth")
         writer.writerow((*names, "too_early", "low", "median", "high", "missed", "line", "finished_median"))
@@ -235,7 +235,7 @@ def write(path: Path, found: Sequence[Case]) -> None:
 def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--to", type=Path, metavar="FOLDER", help="where to write backtest.csv")
+    parser.add_argument("--to", type=Path, metavar="FOLDER", help="where to write backtest.csv.gz")
     parser.add_argument("--score", action="store_true", help="print only the score of the runs that choose")
     arguments = parser.parse_args()
     runs = committed()
@@ -246,7 +246,7 @@ def main() -> None:
     found = list(cases(runs, TARGETS))
     if arguments.to:
         arguments.to.mkdir(parents=True, exist_ok=True)
-        write(arguments.to / "backtest.csv", found)
+        write(arguments.to / "backtest.csv.gz", found)
     for chose, words in ((False, "odd seeds"), (True, "even seeds, which chose the constants")):
         ninety = [case for case in found if case.run.chose == chose and case.target == "0.9"]
         by_cut = {
