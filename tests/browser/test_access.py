@@ -60,7 +60,7 @@ def test_dialogs_are_accessible(open_page: Open, learner: Learner, scheme: str) 
     learner.ask(run, ask("label_hi"))
     page = open_page(f"/work?run={run}", scheme=scheme)
     wait_for_heading(page, ask("label_hi")["question"])
-    for key in ("?", "Shift+S"):
+    for key in ("?", "Shift+S", "Control+k"):
         page.keyboard.press(key)
         page.get_by_role("dialog").wait_for()
         assert violations(page) == [], key

@@ -5,6 +5,7 @@ import { ANSWERABLE, type Vocabulary } from '../api/types';
 /** What a key can do. `choose:2` labels with the vocabulary's third subgoal or action; `act:2` steps with its third action. */
 export type Command =
   | 'help'
+  | 'find'
   | 'pass'
   | 'fail'
   | 'accept'
@@ -65,7 +66,7 @@ export type Mode = (typeof MODES)[number];
 export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[] {
   const choices = vocabulary === null ? [] : choiceBindings(mode, vocabulary);
   const taken = new Set(choices.flatMap((binding) => binding.keys));
-  const rest = [...answerBindings(mode), ...taskBindings(mode), HELP];
+  const rest = [...answerBindings(mode), ...taskBindings(mode), ...COMMON_BINDINGS];
   const free = rest.map((binding) => ({
     ...binding,
     keys: binding.keys.filter((key) => !taken.has(key)),
@@ -87,8 +88,15 @@ export function collisions(bindings: readonly Binding[]): string[] {
 }
 
 const HELP: Binding = { command: 'help', keys: ['?'], label: 'Show every key', group: 'General', once: true };
+const FIND: Binding = {
+  command: 'find',
+  keys: ['Ctrl+k'],
+  label: 'Find a view, a run or a command',
+  group: 'General',
+  once: true,
+};
 /** The bindings of every view. */
-export const COMMON_BINDINGS: readonly Binding[] = [HELP];
+export const COMMON_BINDINGS: readonly Binding[] = [HELP, FIND];
 
 const UNDO: Binding = {
   command: 'undo',
@@ -127,7 +135,7 @@ export const LEAVE: Binding = {
 };
 
 /** The bindings of a view where a trajectory is only watched. */
-export const WATCH_BINDINGS: readonly Binding[] = [...PLAYER, HELP];
+export const WATCH_BINDINGS: readonly Binding[] = [...PLAYER, ...COMMON_BINDINGS];
 
 const REVIEW: readonly Binding[] = [
   { command: 'next-answer', keys: ['j', 'ArrowDown'], label: 'Next answer, an older one', group: 'Review' },
@@ -310,7 +318,7 @@ function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
  */
 function namesToKeys(vocabulary: Vocabulary): Record<'subgoals' | 'actions', (string | undefined)[]> {
   const usedIn = (modes: readonly Mode[]): Set<string> =>
-    new Set([...modes.flatMap(answerBindings), UNDO, HELP].flatMap((binding) => binding.keys));
+    new Set([...modes.flatMap(answerBindings), UNDO, ...COMMON_BINDINGS].flatMap((binding) => binding.keys));
   const reserved = usedIn(OF_SUBGOALS);
   const initials = vocabulary.subgoals.map((name) => initial(name).toLowerCase());
   const subgoals = initials.map((letter) => {

@@ -13,6 +13,7 @@ class Shell {
   me: Me | null = $state.raw(null);
   vocabulary: Vocabulary | null = $state.raw(null); // of the query on the screen
   helpOpen = $state(false);
+  findOpen = $state(false);
   #run: ((command: Command) => void) | null = null;
 
   /** Load the signed-in user, unless it is known. */
@@ -49,6 +50,7 @@ class Shell {
 
   run(command: Command): void {
     if (command === 'help') this.helpOpen = true;
+    else if (command === 'find') this.findOpen = true;
     else this.#run?.(command);
   }
 }
