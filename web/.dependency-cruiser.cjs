@@ -5,6 +5,7 @@ const LAYERS = [
   ['api', 'router', 'ui/style'], // the server's REST API and events; addresses; colors, sizes and themes
   ['keys'], // the one list of keys, and what a key press means
   ['ui'], // components and formats of every view; who is signed in
+  ['ui/table'], // tables and their pages
   ['charts', 'player', 'task/labels'], // charts; a trajectory as frames, played; editors of labels
   ['render/maze'], // the maze on a canvas
   ['render'], // drawing a state: with the renderer of its domain, else with pictures or as text

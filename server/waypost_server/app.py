@@ -8,8 +8,8 @@ from contextlib import asynccontextmanager
 from fastapi import FastAPI
 from starlette.middleware.gzip import GZipMiddleware
 
-from waypost_server.answers import review_routes as review
 from waypost_server.answers import routes as answers
+from waypost_server.answers.review import routes as review
 from waypost_server.auth import refusals
 from waypost_server.auth.access import ACCESS
 from waypost_server.auth.attempts import LoginAttempts

@@ -331,7 +331,7 @@ def test_an_answer_is_found_sent_back_and_read_by_its_annotator(
         worker.keyboard.press("Shift+Enter")
     expect(worker.locator(f"h1[data-query='{third}']")).to_be_focused()
     worker.keyboard.press("f")
-    wait_for_heading(worker, "Waiting for the learner")
+    wait_for_heading(worker, "No question right now")
     learner.use(second)
 
     page = open_page("/login", role=None)

@@ -272,6 +272,7 @@ def test_the_skip_dialog_closes_with_the_lease_of_its_query(
         expect(page.get_by_text("Skipped.")).to_be_visible()
         assert learner.query(query)["state"] == "open"
         page.goto("/login")
+        page.wait_for_load_state("networkidle")  # what is still loading would fail with the server
         learner.close()
 
 

@@ -8,13 +8,12 @@ from fastapi.responses import StreamingResponse
 from waypost import wire
 from waypost_server import errors
 from waypost_server.auth.permissions import Allowed
-from waypost_server.db.transaction import Tx
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath, RowQuery
 from waypost_server.http.problems import refusals
 from waypost_server.runs import service as runs
-from waypost_server.watch import agreement, at_work, export, ledger_rows, outlook, query_history, query_rows
+from waypost_server.watch import at_work, export, ledger_rows, outlook, query_history, query_rows
 from waypost_server.watch.records import reading
 from waypost_server.watch.row_pages import RowPage
 
@@ -72,16 +71,6 @@ async def list_records(
 ) -> wire.RecordPage:
     """List one page of a run's records: its queries with their histories, its ledger, or its episodes."""
     return await context.db.read(lambda tx: reading.page(tx, run, part, after))
-
-
-@router.get("/runs/{run}/agreement", operation_id="getAgreement", responses=refusals(errors.NotFound))
-async def get_agreement(run: str, context: Ctx, _: Allowed) -> wire.Agreement:
-    """Return how far annotators agree on the queries that two of them answered, by kind of query."""
-
-    def read(tx: Tx) -> wire.Agreement:
-        return agreement.agreement(tx, runs.find(tx, run).id)
-
-    return await context.db.read(read)
 
 
 @router.get("/queries/{query}/history", operation_id="getHistory", responses=refusals(errors.NotFound))

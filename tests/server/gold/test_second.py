@@ -7,9 +7,9 @@ import pytest
 from tests.server.gold.test_gold import answer_all
 from tests.server.kit import Caller, Json, Service, query, right_answer, together
 
+from waypost_server.answers.review.agreement import alpha
 from waypost_server.db.checking import check
 from waypost_server.gold.second import is_drawn
-from waypost_server.watch.agreement import alpha
 
 
 def facts(service: Service, run: str) -> list[Json]:

@@ -46,9 +46,9 @@ export class Reviewing {
   async refresh(): Promise<void> {
     const { shown } = this;
     if (shown === null) return;
-    const turn = this.#turn;
     const now = await this.#try(() => this.#details(shown.row));
-    if (now && turn === this.#turn) this.shown = now;
+    // In the meantime, another answer may have come on the screen.
+    if (now && this.shown?.query.id === shown.query.id) this.shown = now;
   }
 
   async #load(query: Asked, isFirst: boolean): Promise<boolean> {

@@ -6,7 +6,9 @@ from fastapi import APIRouter, Query
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.answers import review
+from waypost_server.answers.review import agreement
+from waypost_server.answers.review import service as review
+from waypost_server.answers.review.rows import review_page
 from waypost_server.auth.permissions import Allowed
 from waypost_server.db.transaction import Tx
 from waypost_server.http.context import Ctx
@@ -15,7 +17,6 @@ from waypost_server.http.parameters import RowPath
 from waypost_server.http.problems import refusals
 from waypost_server.runs import service as runs
 from waypost_server.watch.query_rows import QueryFilter
-from waypost_server.watch.review_rows import review_page
 from waypost_server.watch.routes import After, Before, Word
 from waypost_server.watch.row_pages import RowPage
 
@@ -47,6 +48,16 @@ async def list_review(
     def read(tx: Tx) -> wire.ReviewPage:
         runs.find_own(tx, run, caller.user, caller.role)
         return review_page(tx, run, chosen, page)
+
+    return await context.db.read(read)
+
+
+@router.get("/runs/{run}/agreement", operation_id="getAgreement", responses=refusals(errors.NotFound))
+async def get_agreement(run: str, context: Ctx, _: Allowed) -> wire.Agreement:
+    """Return how far annotators agree on the queries that two of them answered, by kind of query."""
+
+    def read(tx: Tx) -> wire.Agreement:
+        return agreement.agreement(tx, runs.find(tx, run).id)
 
     return await context.db.read(read)
 
