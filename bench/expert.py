@@ -79,13 +79,13 @@ def lo_by_buttons(expert: Expert) -> None:
     for action in NINE[0]["actions"]:
         expert.button(action)
     expert.button("Done here")
-    expert.button("Submit")
+    expert.button("Send answer")
 
 
 def lo_by_drawing(expert: Expert) -> None:
     expert.draw(*NINE_WAY)
     expert.button("Done here")
-    expert.button("Submit")
+    expert.button("Send answer")
 
 
 def hi_by_keys(expert: Expert) -> None:
@@ -97,12 +97,12 @@ def hi_by_keys(expert: Expert) -> None:
 def hi_by_buttons(expert: Expert) -> None:
     for subgoal in TEN_RIGHT:
         expert.button(subgoal)
-    expert.button("Submit")
+    expert.button("Send answer")
 
 
 def hi_by_drawing(expert: Expert) -> None:
     expert.draw(*TEN_WAY)
-    expert.button("Submit")
+    expert.button("Send answer")
 
 
 def question(kind: str, episode: int) -> Json:

@@ -31,7 +31,7 @@ run=$(call "$LEARNER_TOKEN" POST /runs '{"name": "curl", "algorithm": "custom", 
   {"domain": "corridor", "renderer": "corridor", "subgoals": ["west", "east", "target"], "actions": ["west", "east"]}}')
 run=$(printf '%s' "$run" | field id)
 asked=$(call "$LEARNER_TOKEN" POST "/runs/$run/queries" '{"queries": [{"kind": "inspect_full", "episode": 0, "ordinal": 0,
-  "question": "Was the whole task accomplished?", "instance": {"cells": 13, "start": 8, "target": 10},
+  "question": "Did it do the whole task?", "instance": {"cells": 13, "start": 8, "target": 10},
   "segments": [{"subgoal": null, "states": [8, 9, 10], "actions": ["east", "east"]}]}]}')
 query=$(printf '%s' "$asked" | field queries 0 id)
 echo "Asked query $query in run $run."

@@ -5,11 +5,12 @@ const LAYERS = [
   ['api', 'router', 'ui/style'], // the server's REST API and events; addresses; colors, sizes and themes
   ['keys'], // the one list of keys, and what a key press means
   ['ui'], // components and formats of every view; who is signed in
+  ['ui/table'], // tables and their pages
   ['charts', 'player', 'task/labels'], // charts; a trajectory as frames, played; editors of labels
   ['render/maze'], // the maze on a canvas
   ['render'], // drawing a state: with the renderer of its domain, else with pictures or as text
   ['runs/curves', 'runs/queries', 'task', 'work/answers'], // learning curves; queries and ledger; one query to answer; sending
-  ['play'], // demonstrations, played in the web app
+  ['play', 'review'], // demonstrations, played in the web app; given answers under review
   ['people', 'practice', 'runs', 'runs/gold', 'work'], // the views
   ['app'], // the header, and the choice of the view
 ];

@@ -36,7 +36,7 @@ const asked = await body(
           kind: 'label_full',
           episode: 0,
           ordinal: 0,
-          question: 'Which action was right in each state?',
+          question: 'What should it have done at each step?',
           instance: { cells: 13, start: 8, target: 10 },
           segments: [walk],
         },

@@ -172,6 +172,23 @@ def evaluate(
 
 
 @app.command()
+def forecast(
+    run: Annotated[str, typer.Argument(help="The run's id.")],
+    target: Annotated[str, typer.Option(help="The success rate: 0.8, 0.9, 0.95 or 0.99.")] = "0.9",
+    server: Annotated[str, typer.Option(help="The server.")] = "http://127.0.0.1:8000",
+    token: TokenOption = "",
+    as_json: JsonOption = False,
+) -> None:
+    """Forecast how many more units a run needs to reach a success rate."""
+    with learner_errors():
+        from waypost.client import Client
+        from waypost_learner.runs.forecast import level, sentence
+
+        found = Client(server, needed(token)).forecast(run, level(target))
+    typer.echo(found.model_dump_json() if as_json else sentence(found))
+
+
+@app.command()
 def oracle(
     server: Annotated[str, typer.Option(help="The server.")] = "http://127.0.0.1:8000",
     token: TokenOption = "",

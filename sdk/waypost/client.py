@@ -168,6 +168,10 @@ class Client:
         """Return success and cost by episode."""
         return self._call(wire.Curves, "GET", f"/runs/{run}/curves")
 
+    def forecast(self, run: str, target: wire.SuccessLevel = "0.9") -> wire.Forecast:
+        """Return how many more units a run needs to reach a success rate."""
+        return self._call(wire.Forecast, "GET", f"/runs/{run}/forecast", params={"target": target})
+
     def records(self, run: str, part: wire.RecordPart, after: int | None = None) -> wire.RecordPage:
         """Return one page of a part of a run's records; `after` is the cursor of the page before."""
         place = {} if after is None else {"after": after}

@@ -9,6 +9,7 @@ from fastapi import FastAPI
 from starlette.middleware.gzip import GZipMiddleware
 
 from waypost_server.answers import routes as answers
+from waypost_server.answers.review import routes as review
 from waypost_server.auth import refusals
 from waypost_server.auth.access import ACCESS
 from waypost_server.auth.attempts import LoginAttempts
@@ -46,7 +47,7 @@ GZIP_BYTES = 8_192  # smaller responses are not compressed
 # Routes are tried in this order, so those that are called most come first.
 ROUTED = (
     *(answers, leases, queries, runs, play, watch, event_streams),
-    *(frames, users, sessions, gold, practice, webhooks, audit),
+    *(frames, users, sessions, gold, review, practice, webhooks, audit),
 )
 
 log = logging.getLogger("waypost")

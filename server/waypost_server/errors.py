@@ -20,6 +20,7 @@ Refusal
 │   ├── QueryCancelled          the run ended before the answer came
 │   ├── AnswerUsed              the learner has used the answer
 │   ├── AnswerRetracted         the answer was retracted
+│   ├── CannotSendBack          the answer is not one of the run's own
 │   ├── NotAnswered             the query has no answer at present
 │   ├── NotPlayable             the query is not an open demonstration
 │   ├── Displaced               a newer connection to the play socket replaced this one
@@ -173,6 +174,12 @@ class AnswerRetracted(Conflict):
     """The answer was retracted."""
 
     name, title = "answer-retracted", "The answer was taken back"
+
+
+class CannotSendBack(Conflict):
+    """The answer is not one of the run's own, so sending it back would mend nothing."""
+
+    name, title = "cannot-send-back", "This answer stays as it is"
 
 
 class NotAnswered(Conflict):

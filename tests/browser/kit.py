@@ -95,24 +95,24 @@ def ask(kind: str, episode: int = 0, ordinal: int = 0, **more: Any) -> Json:
         "terminations": [*(False for _ in third["actions"]), True],
     }
     particular: dict[str, Json] = {
-        "inspect_full": {"question": "Was the whole task accomplished?", "segments": ROLLOUT},
+        "inspect_full": {"question": "Did it do the whole task?", "segments": ROLLOUT},
         "label_hi": {
-            "question": "Which subgoal was right at the start of each segment?",
+            "question": "Which subgoal should it have chosen for each segment?",
             "segments": ROLLOUT,
             "suggestion": hi,
         },
         "inspect_lo": {
-            "question": "Did this segment accomplish “east”?",
+            "question": "It tried “east”. Did that work?",
             "segments": [third],
             "context": ROLLOUT[:2],
         },
         "label_lo": {
-            "question": "Which action was right in each state toward “east”, and where is it done?",
+            "question": "It tried “east”. What should it have done at each step, and where is it done?",
             "segments": [third],
             "context": ROLLOUT[:2],
             "suggestion": lo,
         },
-        "label_full": {"question": "Which action was right in each state?", "segments": ROLLOUT[:3]},
+        "label_full": {"question": "What should it have done at each step?", "segments": ROLLOUT[:3]},
     }
     return common | particular[kind] | more
 

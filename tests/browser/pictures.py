@@ -92,7 +92,7 @@ class Gallery:
                     self.take(name)
                     self.page.keyboard.press("Escape")
             self.page.keyboard.press("f" if "inspect" in kind else "Shift+Enter")
-        wait_for_heading(self.page, "Waiting for the learner")
+        wait_for_heading(self.page, "No question right now")
         self.take("waiting")
         self.learner.call("PATCH", f"/runs/{run}", {"state": "finished"})
 
@@ -122,8 +122,18 @@ class Gallery:
             self.take("query")
             self.visit("overlay", f"/runs/compare?{'&'.join(f'run={one}' for one in others)}", there_is_a_chart)
 
+    def practice(self) -> None:
+        """Practice: the start, a worked example of the first practice, and feedback."""
+        self.visit("practice", "/practice", there_is_a_heading)
+        self.visit("practice-example", "/practice?first=yes", there_is_a_heading)
+        self.page.keyboard.press("Enter")
+        wait_for_heading(self.page, "Did it do the whole task?")
+        self.page.keyboard.press("n")
+        wait_for_heading(self.page, "Not right")
+        self.take("practice-feedback")
+
     def people(self, run: str) -> None:
-        """Accounts, an account, one's own, gold queries, practice, and the way in."""
+        """Accounts, an account, one's own, gold queries, and the way in."""
         self.visit("people", "/people", there_is_a_heading)
         self.page.get_by_role("link", name="learner").first.click()
         self.page.get_by_role("heading", level=1, name="learner").wait_for()
@@ -131,16 +141,10 @@ class Gallery:
         self.visit("audit", "/people/audit", there_is_a_row)
         self.visit("me", "/me", there_is_a_heading)
         self.visit("gold", f"/runs/{run}/gold", there_is_a_heading)
-        self.visit("practice", "/practice", there_is_a_heading)
-        self.page.keyboard.press("Enter")
-        wait_for_heading(self.page, "Was the whole task accomplished?")
-        self.page.keyboard.press("f")
-        wait_for_heading(self.page, "Not right")
-        self.take("practice-feedback")
         self.visit("login", "/login", there_is_a_heading)
 
 
-def take_all(folder: Path, store: Path | None, looks: list[list[str]]) -> None:
+def take_all(folder: Path, store: Path | None, looks: list[list[str]], only_work: bool) -> None:
     """Serve, and go through every view in every look: a scheme and a size."""
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as kept, ExitStack() as stack:
@@ -155,16 +159,20 @@ def take_all(folder: Path, store: Path | None, looks: list[list[str]]) -> None:
         guided = [one["id"] for one in there if one["algorithm"] == "hg-dagger"]
         run = guided[0] if guided else learner.create_run()
         for scheme, size in looks:
-            context = browser.new_context(base_url=served.url, viewport=SIZES[size], color_scheme=scheme)
-            log_in(context, served, "ada", "admin")
             suffix = "".join(f"-{part}" for part in (scheme, size) if part not in USUAL)
-            gallery = Gallery(folder, served, learner, context.new_page(), suffix)
-            gallery.questions()
-            if size != "landscape":
-                gallery.demonstration()
-                gallery.runs(run, [one["id"] for one in there])
-                gallery.people(run)
-            context.close()
+            for name, role in (("bea", "annotator"), ("ada", "admin")):
+                context = browser.new_context(base_url=served.url, viewport=SIZES[size], color_scheme=scheme)
+                log_in(context, served, name, role)
+                gallery = Gallery(folder, served, learner, context.new_page(), suffix)
+                if role == "annotator":
+                    gallery.questions()
+                if role == "annotator" and size != "landscape":
+                    gallery.demonstration()
+                    gallery.practice()
+                elif size != "landscape" and not only_work:
+                    gallery.runs(run, [one["id"] for one in there])
+                    gallery.people(run)
+                context.close()
 
 
 if __name__ == "__main__":
@@ -172,5 +180,6 @@ if __name__ == "__main__":
     parser.add_argument("folder", type=Path)
     parser.add_argument("--store", type=Path, help="an SQLite store with runs to show")
     parser.add_argument("--looks", nargs="+", default=LOOKS, help=f"of scheme-size, such as: {' '.join(LOOKS)}")
+    parser.add_argument("--only-work", action="store_true", help="only what annotators see: no store is needed")
     asked = parser.parse_args()
-    take_all(asked.folder, asked.store, [look.split("-") for look in asked.looks])
+    take_all(asked.folder, asked.store, [look.split("-") for look in asked.looks], asked.only_work)

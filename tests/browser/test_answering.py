@@ -95,7 +95,7 @@ def test_a_run_of_all_kinds_is_answered_without_a_pause(open_page: Open, learner
     for kind in kinds:
         wait_for_heading(page, ask(kind)["question"])
         press(page, "f" if "inspect" in kind else "Shift+Enter")
-    wait_for_heading(page, "Waiting for the learner")
+    wait_for_heading(page, "No question right now")
     assert [learner.answer_of(query)["kind"] for query in queries] == kinds
     expect(page.get_by_text("5 answers")).to_be_visible()
 
@@ -157,7 +157,7 @@ def test_the_mouse_does_what_the_keys_do(open_page: Open, learner: Learner) -> N
     page.get_by_role("button", name="State 4: ").click()  # the first wrong step
     page.get_by_role("button", name="left").click()
     page.get_by_role("button", name="Done here").click()
-    page.get_by_role("button", name="Submit", exact=False).first.click()
+    page.get_by_role("button", name="Send answer").click()
     assert learner.answer_of(query) == {
         "kind": "label_lo",
         "actions": ["up", "up", "right", "left", None, None],
@@ -211,17 +211,17 @@ def test_a_key_can_be_changed_and_is_remembered(open_page: Open, learner: Learne
     wait_for_heading(page, ask("inspect_full")["question"])
     press(page, "?")
     dialog = page.get_by_role("dialog", name="Keys")
-    dialog.get_by_role("button", name="Change the key of Pass").click()
+    dialog.get_by_role("button", name="Change the key of Yes, it worked").click()
     press(page, "f")
-    expect(dialog.get_by_role("status")).to_contain_text("F already means “Fail”")
+    expect(dialog.get_by_role("status")).to_contain_text("F already means “No, it failed”")
     press(page, "Escape")
     expect(dialog.get_by_role("status")).to_contain_text("Nothing was changed")
-    dialog.get_by_role("button", name="Change the key of Pass").click()
+    dialog.get_by_role("button", name="Change the key of Yes, it worked").click()
     press(page, "j")
     expect(dialog.get_by_role("status")).to_contain_text("is J now")
     press(page, "Escape")
     expect(dialog).to_be_hidden()
-    expect(page.get_by_role("button", name="Pass")).to_contain_text("J")
+    expect(page.get_by_role("button", name="Yes, it worked")).to_contain_text("J")
     press(page, "p")
     press(page, "j")
     assert learner.answer_of(first)["verdict"] == "pass"

@@ -76,7 +76,7 @@ def test_people_and_practice_fit_a_phone(open_page: Open) -> None:
     page.get_by_role("heading", name="Practice").wait_for()
     assert too_wide(page) == [], "practice"
     page.keyboard.press("Enter")
-    wait_for_heading(page, "Was the whole task accomplished?")
+    wait_for_heading(page, "Did it do the whole task?")
     assert too_wide(page) == [], "practice query"
     page.keyboard.press("f")
     wait_for_heading(page, "Not right")

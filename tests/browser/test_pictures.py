@@ -28,7 +28,7 @@ from waypost_server.auth import tokens
 from waypost_server.serving import Served
 from waypost_server.users import service as users
 
-LABEL_HI = "Which subgoal was right at the start of each segment?"
+LABEL_HI = "Which subgoal should it have chosen for each segment?"
 AGENTS_CELL = """async img => {
     await img.decode();
     const canvas = document.createElement('canvas');

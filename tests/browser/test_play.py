@@ -10,7 +10,7 @@ from playwright.sync_api import Locator, Page, expect
 from sqlalchemy import update
 from tests.browser.conftest import Open
 from tests.browser.kit import LETTERS, START, Complaints, Json, Learner, maze, wait_for_heading
-from tests.browser.test_access import SMALL, violations
+from tests.browser.test_access import SIZES, violations
 
 from waypost.client import Client
 from waypost_learner.algorithms.queries import HierDemo
@@ -26,7 +26,7 @@ from waypost_server.db.tables import assignments
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
-QUESTION = "Carry out the whole task, one subgoal after the other."
+QUESTION = "Do the whole task yourself, one subgoal after the other."
 KEYS = {"u": "ArrowUp", "d": "ArrowDown", "l": "ArrowLeft", "r": "ArrowRight"}
 WAY = [("n", "uuu"), ("1", "uluuu"), ("e", "urrrr"), ("4", "drrrr"), ("n", "uuruu"), ("e", "rrr"), ("t", "ur")]
 SEGMENTS = [
@@ -100,7 +100,7 @@ def steps(page: Page) -> Locator:
 def test_a_demonstration_is_played_with_the_keyboard(open_page: Open, learner: Learner, stage: Stage) -> None:
     run = learner.create_run("played")
     [query] = learner.ask(run, ask())
-    page = open_page(f"/work?run={run}")
+    page = open_page(f"/work?run={run}", role="admin")  # only those who pay see prices
     wait_for_heading(page, QUESTION)
     expect(page.get_by_text("The learner is away.")).to_be_visible()
     stage(learner.served, query)
@@ -220,7 +220,7 @@ def test_what_does_not_succeed_is_sent_only_after_a_question(
     run = learner.create_run("burnt")
     [query] = learner.ask(run, ask())
     stage(learner.served, query)
-    page = open_page(f"/work?run={run}", scheme=scheme, size=SMALL)
+    page = open_page(f"/work?run={run}", scheme=scheme, size=SIZES[0])
     is_here(page)
     way(page, WAY[:4])
     assert violations(page) == [], "under way"

@@ -13,6 +13,8 @@ from tests.browser.test_access import violations
 from waypost import wire
 from waypost_server.serving import Served
 
+WHY_BACK = "The second step east leads into the lava."
+
 
 def test_a_run_is_followed_live(open_page: Open, learner: Learner) -> None:
     run = learner.create_run("live one", budget=100.0)
@@ -50,7 +52,8 @@ def test_annotators_watch_a_run_but_not_its_single_queries(open_page: Open, lear
     wait_for_heading(open_page(f"/work?run={run}"), ask("inspect_full")["question"])
     page = open_page(f"/runs/{run}")
     expect(page.get_by_role("slider", name="Success on unseen instances")).to_be_visible()
-    expect(page.get_by_role("listitem").filter(has_text="Inspect_FULL, ep. 0")).to_be_visible()
+    expect(page.get_by_role("listitem").filter(has_text="Did the whole task work?, ep. 0")).to_be_visible()
+    expect(page.get_by_text(re.compile("reserved|of 100 units"))).to_have_count(0)  # they do not pay
     sections = page.get_by_role("navigation", name="This run").get_by_role("link")
     expect(sections).to_have_text(["Overview", "Overlay"])
     expect(page.get_by_role("heading", name="Recent queries")).to_be_hidden()
@@ -67,7 +70,7 @@ def test_pause_and_resume(open_page: Open, learner: Learner) -> None:
     expect(page.get_by_role("button", name="Resume")).to_be_visible()
     assert learner.call("GET", f"/runs/{run}")["state"] == "paused"
     worker = open_page(f"/work?run={run}")
-    wait_for_heading(worker, "Waiting for the learner")
+    wait_for_heading(worker, "No question right now")
     page.get_by_role("button", name="Resume").click()
     wait_for_heading(worker, ask("inspect_full")["question"])
 
@@ -95,7 +98,7 @@ def test_only_who_may_pauses(open_page: Open, learner: Learner, role: wire.Role)
 def test_the_list_leads_to_the_run_and_back(open_page: Open, learner: Learner) -> None:
     run = learner.create_run("on the list", budget=50.0)
     learner.report(run, [True])
-    page = open_page("/runs")
+    page = open_page("/runs", role="viewer")
     row = page.get_by_role("row", name="on the list")
     expect(row).to_contain_text("1/500")
     expect(row).to_contain_text("0/50")
@@ -265,7 +268,7 @@ def test_reading_one_chart_as_a_table_leaves_its_neighbours_drawing_beside_its_o
     worker = open_page(f"/work?run={run}")
     wait_for_heading(worker, ask("inspect_full")["question"])
     worker.keyboard.press("p")
-    wait_for_heading(worker, "Waiting for the learner")
+    wait_for_heading(worker, "No question right now")
     learner.report(run, [False, True])
     page = open_page(f"/runs/{run}", role="viewer")
 
@@ -312,3 +315,60 @@ def test_the_configuration_and_what_the_domain_lacks_are_shown(open_page: Open, 
     plain = open_page(f"/runs/{learner.create_run('complete', config={'preset': 'lean'})}")
     expect(plain.get_by_role("region", name="Configuration")).to_contain_text("preset lean")
     expect(plain.get_by_role("heading", name="does not provide")).to_have_count(0)
+
+
+def test_an_answer_is_found_sent_back_and_read_by_its_annotator(
+    open_page: Open, learner: Learner, served: Served
+) -> None:
+    run = learner.create_run("to review")
+    hi = ask("label_hi")
+    first, second, third = learner.ask(run, hi, hi | {"ordinal": 1}, ask("inspect_full", ordinal=2))
+    worker = open_page(f"/work?run={run}")
+    for query in (first, second):
+        heading = worker.locator(f"h1[data-query='{query}']")
+        expect(heading).to_be_focused()
+        worker.keyboard.press("s")  # south: the learner chose north
+        worker.keyboard.press("Shift+Enter")
+    expect(worker.locator(f"h1[data-query='{third}']")).to_be_focused()
+    worker.keyboard.press("f")
+    wait_for_heading(worker, "No question right now")
+    learner.use(second)
+
+    page = open_page("/login", role=None)
+    log_in(page.context, served, "learner", "learner")
+    page.goto(f"/runs/{run}")
+    page.get_by_role("link", name="Review").click()
+    shown = page.locator("h2[data-query]")
+    expect(shown).to_have_attribute("data-query", str(third))
+    page.get_by_label("Differs from").select_option("suggestion")
+    expect(page.get_by_text("2 answers to review")).to_be_visible()
+    expect(shown).to_have_attribute("data-query", str(second))
+    expect(page.get_by_text("The learner has used this answer")).to_be_visible()
+    expect(page.get_by_role("button", name="Send back")).to_be_disabled()
+    page.get_by_label("Differs from").blur()
+    page.keyboard.press("j")
+    expect(shown).to_have_attribute("data-query", str(first))
+    expect(shown).to_be_focused()
+    expect(page).to_have_url(re.compile(rf"disagrees=suggestion&query={first}$"))
+    page.keyboard.press("b")
+    expect(page.get_by_text("Write what should be different")).to_be_visible()
+    expect(page.get_by_role("textbox", name="Comment")).to_be_focused()
+    page.keyboard.type(WHY_BACK)
+    page.keyboard.press("Escape")
+    page.keyboard.press("k")
+    expect(shown).to_have_attribute("data-query", str(second))
+    page.keyboard.press("j")
+    expect(page.get_by_role("textbox", name="Comment")).to_have_value(WHY_BACK)
+    page.keyboard.press("b")
+    expect(page.get_by_text("Sent back. The query is open again.")).to_be_visible()
+    expect(page.get_by_role("list", name="Comments")).to_contain_text(WHY_BACK)
+    assert violations(page) == []
+
+    wait_for_heading(worker, hi["question"])
+    expect(worker.get_by_role("note")).to_contain_text(WHY_BACK)
+    assert violations(worker) == []
+    worker.goto("/me")
+    back = worker.get_by_role("region", name="Answers that came back")
+    expect(back).to_contain_text(WHY_BACK)
+    expect(back).to_contain_text("to review")
+    assert violations(worker) == []

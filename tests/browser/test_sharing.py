@@ -26,7 +26,7 @@ def test_two_tabs_of_one_person_answer_different_queries(open_page: Open, learne
         page.keyboard.press("f")
     two.close()
     one.bring_to_front()
-    while one.locator("#question").text_content() != "Waiting for the learner":
+    while one.locator("#question").text_content() != "No question right now":
         one.keyboard.press("p")
         one.wait_for_timeout(100)
     assert all(learner.answer_of(query) for query in queries)
@@ -40,7 +40,7 @@ def test_two_people_share_a_run_and_none_of_it_is_answered_twice(open_page: Open
     pages = [open_page(f"/work?run={run}") for _ in range(2)]
     for page in pages:
         page.get_by_role("heading", name="Question").wait_for()
-    while any(page.locator("#question").text_content() != "Waiting for the learner" for page in pages):
+    while any(page.locator("#question").text_content() != "No question right now" for page in pages):
         for page in pages:
             page.keyboard.press("p")
             page.wait_for_timeout(50)
@@ -55,12 +55,12 @@ def test_an_episode_stays_with_the_person_who_is_at_it(open_page: Open, learner:
     page = open_page(f"/work?run={run}")
     wait_for_heading(page, QUESTION)
     other = open_page(f"/work?run={run}")
-    wait_for_heading(other, "Waiting for the learner")
+    wait_for_heading(other, "No question right now")
     page.keyboard.press("f")
     learner.answer_of(query)
     [follow_up] = learner.ask(run, ask("label_hi", ordinal=1))
     wait_for_heading(page, ask("label_hi")["question"])
-    wait_for_heading(other, "Waiting for the learner")
+    wait_for_heading(other, "No question right now")
     page.keyboard.press("Shift+Enter")
     assert learner.answer_of(follow_up)
     assert learner.query(follow_up)["annotator"] == learner.query(query)["annotator"]
@@ -82,7 +82,7 @@ def test_who_holds_the_queries_is_said_while_none_is_open(
     wait_until_leased(learner, first, second)
     closed.context.set_offline(True)  # it cannot say goodbye
     closed.close()
-    for name, said in (("holds-two", "You hold 2 queries in another tab"), ("holds-none", "Others are answering 2")):
+    for name, said in (("holds-two", "You hold 2 questions in another tab"), ("holds-none", "Others are answering 2")):
         page = at_work(name)
-        wait_for_heading(page, "Waiting for the learner")
+        wait_for_heading(page, "No question right now")
         expect(page.get_by_text(said)).to_be_visible()

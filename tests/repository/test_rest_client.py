@@ -30,7 +30,7 @@ def inspect_full(maze, last) -> wire.AskInspectFull:
         kind="inspect_full",
         episode=0,
         ordinal=0,
-        question="Was the whole task accomplished?",
+        question="Did it do the whole task?",
         instance=DOMAIN.instance_view(maze),
         segments=[segment],
     )
@@ -56,7 +56,7 @@ def test_the_client_in_the_documentation_leases_answers_and_sees_what_it_cost(st
     verdict = "pass" if arrives else "fail"
     assert done.stderr == ""
     assert done.stdout.splitlines() == [
-        f"Was the whole task accomplished? {verdict}: 1 unit, query {asked.id}",
+        f"Did it do the whole task? {verdict}: 1 unit, query {asked.id}",
         "The run has cost 1 units.",
     ]
     answered = learner.query(asked.id)

@@ -127,7 +127,7 @@ def test_annotators_see_the_instance_the_context_and_the_learners_own_choices(se
     assert (ask.episode, ask.instance) == (3, {"goal": 9})
     assert [segment.subgoal for segment in ask.context] == ["door"]
     assert ask.suggestion == wire.LabelLoAnswer(kind="label_lo", actions=["left"], terminations=[False, False])
-    assert ask.question == "Which action was right in each state toward “key”?"
+    assert ask.question == "It tried “key”. What should it have done at each step?"
 
 
 def test_arrays_become_lists(service):

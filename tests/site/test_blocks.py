@@ -68,7 +68,7 @@ def server_with_a_query(folder: Path, port: int) -> ServerProcess:
     vocabulary = wire.Vocabulary(domain="maze", subgoals=["north"], actions=["up"], renderer="maze")
     run = learner.create_run(wire.RunCreate(name="a run", algorithm="hg-dagger", seed=0, vocabulary=vocabulary))
     segment = wire.Segment(subgoal="north", states=[[2, 1], [1, 1]], actions=["up"])
-    question = {"episode": 0, "ordinal": 0, "question": "Was the whole task accomplished?"}
+    question = {"episode": 0, "ordinal": 0, "question": "Did it do the whole task?"}
     learner.ask(
         run.id, [wire.AskInspectFull(kind="inspect_full", instance={"goal": [1, 1]}, segments=[segment], **question)]
     )

@@ -59,7 +59,7 @@ class Translator:
                 how = "." if flat else ", one subgoal after the other."
                 return wire.AskHierDemo(
                     kind="hier_demo",
-                    question=f"Carry out the whole task{how}",
+                    question=f"Do the whole task yourself{how}",
                     state=state.view,
                     flat=flat,
                     max_segments=horizons.hi,
@@ -69,14 +69,14 @@ class Translator:
             case InspectFull(sigma):
                 return wire.AskInspectFull(
                     kind="inspect_full",
-                    question="Was the whole task accomplished?",
+                    question="Did it do the whole task?",
                     segments=self._segments(sigma),
                     **common,
                 )
             case LabelHi(sigma, before):
                 return wire.AskLabelHi(
                     kind="label_hi",
-                    question=f"Which subgoal was right at the start of {'each' if len(sigma) > 1 else 'this'} segment?",
+                    question=f"Which subgoal should it have chosen for {'each' if len(sigma) > 1 else 'this'} segment?",
                     **self._with_context(before, sigma),
                     suggestion=wire.LabelHiAnswer(kind="label_hi", subgoals=[self._subgoal(s) for s in sigma]),
                     **common,
@@ -84,14 +84,14 @@ class Translator:
             case InspectLo(segment, before):
                 return wire.AskInspectLo(
                     kind="inspect_lo",
-                    question=f"Did this segment accomplish “{self._words(segment)}”?",
+                    question=f"It tried “{self._words(segment)}”. Did that work?",
                     **self._with_context(before, (segment,)),
                     **common,
                 )
             case LabelLo(segment, before):
                 return wire.AskLabelLo(
                     kind="label_lo",
-                    question=f"Which action was right in each state toward “{self._words(segment)}”?",
+                    question=f"It tried “{self._words(segment)}”. What should it have done at each step?",
                     **self._with_context(before, (segment,)),
                     suggestion=wire.LabelLoAnswer(
                         kind="label_lo",
@@ -103,7 +103,7 @@ class Translator:
             case LabelFull(sigma):
                 return wire.AskLabelFull(
                     kind="label_full",
-                    question="Which action was right in each state?",
+                    question="What should it have done at each step?",
                     segments=self._segments(sigma),
                     suggestion=wire.LabelFullAnswer(
                         kind="label_full", actions=[a for s in sigma for a in self._actions(s.actions)]

@@ -137,7 +137,7 @@ class HierDemo(Query[tuple[wire.DemoSegment, ...]]):
             max_segments=self.max_segments,
             max_actions=self.max_actions,
             flat=self.flat,
-            **self._common(ordinal, "Carry out the whole task."),
+            **self._common(ordinal, "Do the whole task yourself."),
         )
 
 
@@ -158,7 +158,7 @@ class InspectFull(Query[bool]):
 
     def message(self, ordinal: int) -> wire.AskInspectFull:
         """Return the query as a message."""
-        return wire.AskInspectFull(kind="inspect_full", **self._common(ordinal, "Was the whole task accomplished?"))
+        return wire.AskInspectFull(kind="inspect_full", **self._common(ordinal, "Did it do the whole task?"))
 
 
 @dataclass(frozen=True)
@@ -183,7 +183,7 @@ class LabelHi(Query[tuple[str, ...]]):
         return wire.AskLabelHi(
             kind="label_hi",
             suggestion=suggestion,
-            **self._common(ordinal, "Which subgoal was right at the start of each segment?"),
+            **self._common(ordinal, "Which subgoal should it have chosen for each segment?"),
         )
 
 
@@ -206,7 +206,7 @@ class InspectLo(Query[bool]):
         """Return the query as a message."""
         return wire.AskInspectLo(
             kind="inspect_lo",
-            **self._common(ordinal, f"Did this segment accomplish “{self.segment.subgoal}”?"),
+            **self._common(ordinal, f"It tried “{self.segment.subgoal}”. Did that work?"),
         )
 
 
@@ -238,7 +238,7 @@ class LabelLo(Query[wire.LabelLoAnswer]):
             suggestion=wire.LabelLoAnswer(
                 kind="label_lo", actions=list(actions), terminations=[*(False for _ in actions), self.terminated]
             ),
-            **self._common(ordinal, f"Which action was right in each state toward “{self.segment.subgoal}”?"),
+            **self._common(ordinal, f"It tried “{self.segment.subgoal}”. What should it have done at each step?"),
         )
 
 
@@ -264,7 +264,7 @@ class LabelFull(Query[tuple[str, ...]]):
             suggestion=wire.LabelFullAnswer(
                 kind="label_full", actions=[action for segment in self.segments for action in segment.actions]
             ),
-            **self._common(ordinal, "Which action was right in each state?"),
+            **self._common(ordinal, "What should it have done at each step?"),
         )
 
 

@@ -12,12 +12,14 @@ the audit log. Costs are in units: one label costs one unit, unless the run sets
 from waypost.wire.answers import *
 from waypost.wire.assignments import *
 from waypost.wire.audit import *
+from waypost.wire.comments import *
 from waypost.wire.frames import *
 from waypost.wire.gold import *
 from waypost.wire.people import *
 from waypost.wire.play import *
 from waypost.wire.queries import *
 from waypost.wire.records import *
+from waypost.wire.review import *
 from waypost.wire.runs import *
 from waypost.wire.system import *
 from waypost.wire.watching import *

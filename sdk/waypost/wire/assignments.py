@@ -5,6 +5,7 @@ from typing import Annotated
 from pydantic import Field
 
 from waypost.wire.answers import Answer
+from waypost.wire.comments import Comment
 from waypost.wire.queries import Query
 from waypost.wire.runs import Vocabulary
 from waypost.wire.system import Problem
@@ -106,6 +107,10 @@ class Assignment(Message):
     query: Query
     run: AssignedRun
     price: Price = Field(description="The price of the answer.")
+    comments: list[Comment] = Field(
+        default_factory=list,
+        description="The comments with which reviewers sent earlier answers to this query back, oldest first.",
+    )
     leased_at: float = Field(description="When the lease began, in seconds since the epoch.")
     expires_at: float = Field(description="When the lease expires without a renewal, in seconds since the epoch.")
     lease_seconds: float = Field(description="The length of a lease and of each renewal, in seconds.")

@@ -25,6 +25,7 @@ __all__ = [
     "Practice",
     "PracticeAnswer",
     "PracticeQuery",
+    "WorkedExample",
 ]
 
 
@@ -127,22 +128,32 @@ class PracticeQuery(Message):
     ask: Ask
 
 
-class Practice(Message):
-    """The practice queries in their order, sent by the server. Practice stores nothing and costs nothing."""
-
-    vocabulary: Vocabulary
-    queries: list[PracticeQuery]
-
-
-class PracticeAnswer(Message):
-    """An answer to a practice query, sent by an annotator."""
-
-    answer: Answer
-
-
 class Feedback(Message):
     """The server's reply to a practice answer: each label compared with the correct ones."""
 
     marks: list[Mark]
     reasons: list[str] = Field(description="For each label, the reason why the correct labels are correct.")
     is_right: bool = Field(description="Whether all labels are correct.")
+
+
+class WorkedExample(Message):
+    """A practice query with a correct answer, sent by the server; it is shown before others of its kind are asked."""
+
+    query: int = Field(description="The id of the practice query.")
+    feedback: Feedback = Field(description="A correct answer, and the reason for each label.")
+
+
+class Practice(Message):
+    """The practice queries in their order, sent by the server. Practice stores nothing and costs nothing."""
+
+    vocabulary: Vocabulary
+    queries: list[PracticeQuery]
+    examples: list[WorkedExample] = Field(
+        description="The last query of each kind, for the kinds that have several queries."
+    )
+
+
+class PracticeAnswer(Message):
+    """An answer to a practice query, sent by an annotator."""
+
+    answer: Answer

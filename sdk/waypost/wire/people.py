@@ -40,6 +40,9 @@ class Me(Message):
     role: Role
     answers: int = Field(description="The number of the user's answers that count.")
     answers_today: int = Field(description="The number of these answers since midnight UTC.")
+    active_seconds_today: float = Field(
+        description="The user's working time for the answers since midnight UTC, without idle time, in seconds."
+    )
     median_seconds: float | None = Field(
         description="The median working time of the last 1,000 of these answers, without idle time, in seconds."
     )

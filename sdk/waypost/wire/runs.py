@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from waypost.wire.words import GoldRate, Json, Kind, Message, Name, RunState, Units
+from waypost.wire.words import GoldRate, Json, Kind, Message, Name, RunState, SecondShare, Units
 
 __all__ = [
     "Attempt",
@@ -14,6 +14,8 @@ __all__ = [
     "EpisodeList",
     "EpisodeResult",
     "Event",
+    "Forecast",
+    "ForecastRange",
     "Milestone",
     "Prices",
     "Run",
@@ -21,6 +23,7 @@ __all__ = [
     "RunList",
     "RunPatch",
     "RunSort",
+    "SuccessLevel",
     "Vocabulary",
 ]
 
@@ -60,6 +63,7 @@ class RunCreate(Message):
         default=None, description="The highest total cost of the run, in units; null for no limit."
     )
     episodes: int | None = Field(default=None, ge=1, le=10**9, description="The planned number of episodes.")
+    second_answers: SecondShare = 0
 
 
 class RunPatch(Message):
@@ -76,6 +80,7 @@ class RunPatch(Message):
     )
     result: dict[str, Json] | None = Field(default=None, description="The learner's report at the end of the run.")
     gold_rate: GoldRate | None = None
+    second_answers: SecondShare | None = None
 
 
 class Run(Message):
@@ -100,6 +105,7 @@ class Run(Message):
     )
     open_queries: int = Field(description="The number of unanswered queries.")
     gold_rate: float = Field(description="The share of gold queries among an annotator's queries, 0 to 0.5.")
+    second_answers: SecondShare = 0
     result: dict[str, Json] | None = Field(description="The learner's report at the end of the run.")
     created_at: float = Field(description="When the run was created, in seconds since the epoch.")
     finished_at: float | None = Field(description="When the run finished, in seconds since the epoch.")
@@ -212,6 +218,41 @@ class Costs(Message):
     budget: float | None = Field(description="The highest total cost of the run, in units; null for no limit.")
     first_at: dict[str, Milestone | None] = Field(
         description='By success level ("0.8", "0.9", "0.95", "0.99"): when it was first reached; null if it was not.'
+    )
+
+
+SuccessLevel = Literal["0.8", "0.9", "0.95", "0.99"]
+
+
+class ForecastRange(Message):
+    """A forecast amount: the median of all possible futures, and the range that holds the middle 80 % of them.
+
+    Null: so many futures do not reach the target that the amount has no end.
+    """
+
+    low: float | None = Field(description="In a tenth of the futures it is less.")
+    median: float | None = Field(description="In half of the futures it is less.")
+    high: float | None = Field(description="In a tenth of the futures it is more.")
+
+
+class Forecast(Message):
+    """When a run will reach a success rate over 100 test episodes, sent by the server.
+
+    Exactly one of `reached`, `too_early` and `more_units` is set.
+    """
+
+    target: SuccessLevel = Field(description="The success rate.")
+    reached: Milestone | None = Field(description="When the run reached the target; null if it has not yet.")
+    too_early: str | None = Field(description="Why there is no forecast yet, as a sentence; null if there is one.")
+    more_units: ForecastRange | None = Field(description="How many more units the run needs.")
+    more_seconds: ForecastRange | None = Field(
+        description="The annotators' working time for these units, at the pace of the last answers by people; null if "
+        "there were none."
+    )
+    missed: float | None = Field(description="The share of futures in which the run does not reach the target, 0 to 1.")
+    same_configuration: int = Field(description="The number of finished runs used that differ only by their seed.")
+    other_configurations: int = Field(
+        description="The number of other finished runs used, of the domain and algorithm."
     )
 
 

@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from waypost.wire.answers import Answer
+from waypost.wire.comments import Comment
 from waypost.wire.words import Kind, Message, QueryState
 
 __all__ = [
@@ -12,17 +13,20 @@ __all__ = [
     "AtWork",
     "AtWorkList",
     "Change",
+    "Doing",
     "ExportFormat",
     "ExportTable",
     "Holding",
     "LedgerEntry",
     "LedgerEntryKind",
     "LedgerPage",
+    "Outlook",
     "PastAnswer",
     "PastAssignment",
     "QueryHistory",
     "QueryPage",
     "QueryRow",
+    "RunOutlook",
 ]
 
 AssignmentState = Literal["live", "answered", "skipped", "released", "expired", "cancelled"]
@@ -118,10 +122,11 @@ class PastAssignment(Message):
 
 
 class QueryHistory(Message):
-    """All assignments and ledger entries of a query, oldest first, and its neighbors; sent by the server."""
+    """All assignments, ledger entries and comments of a query, oldest first, and its neighbors; sent by the server."""
 
     assignments: list[PastAssignment]
     ledger: list[LedgerEntry]
+    comments: list[Comment] = Field(description="What reviewers wrote about the query.")
     previous: int | None = Field(description="The id of the previous query in the run, by episode and ordinal.")
     next: int | None = Field(description="The id of the next query in the run, by episode and ordinal.")
 
@@ -150,6 +155,39 @@ class AtWorkList(Message):
     """The annotators who are working, most recently seen first; sent by the server."""
 
     annotators: list[AtWork]
+
+
+Doing = Literal["asking", "training", "rolling_out", "paused", "finished"]
+
+
+class RunOutlook(Message):
+    """What the learner of a run does, and when it will ask again; sent by the server."""
+
+    run: str = Field(description="The id of the run.")
+    name: str = Field(description="The name of the run.")
+    domain: str = Field(description="The name of the run's domain.")
+    kinds: list[Kind] = Field(description="The kinds of query that the learner asked lately.")
+    doing: Doing = Field(
+        description="What the learner does: it waits for answers (`asking`), learns from them (`training`), or acts "
+        "until it has something to ask (`rolling_out`); or the run is paused or finished."
+    )
+    seconds: float = Field(description="How long ago the run changed last, in seconds.")
+    usual_seconds: float | None = Field(
+        description="The median time from the last answer to the next query, over the last 20 times that no query was "
+        "open, in seconds; null before the first."
+    )
+    open: int = Field(description="The number of unanswered queries, rounded up to tens; 1,000 for more.")
+
+
+class Outlook(Message):
+    """What an annotator without a query can expect, sent by the server."""
+
+    open: int = Field(
+        description="The number of unanswered queries of all running runs, rounded up to tens; 1,000 for more."
+    )
+    runs: list[RunOutlook] = Field(
+        description="The newest runs, at most six: running ones first, then paused ones, then finished ones."
+    )
 
 
 class Change(Message):

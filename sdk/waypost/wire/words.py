@@ -6,6 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field, JsonValue, SerializeAsAny
 
 __all__ = [
     "KINDS",
+    "Disagreement",
     "FrameHash",
     "GoldRate",
     "Json",
@@ -16,6 +17,7 @@ __all__ = [
     "QueryState",
     "Role",
     "RunState",
+    "SecondShare",
     "Units",
     "Verdict",
 ]
@@ -25,6 +27,7 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 Verdict = Literal["pass", "fail"]
 RunState = Literal["running", "paused", "finished"]
 QueryState = Literal["open", "leased", "answered", "cancelled"]
+Disagreement = Literal["suggestion", "gold", "second"]
 Role = Literal["admin", "learner", "annotator", "viewer"]
 
 Json = Annotated[JsonValue, SerializeAsAny()]
@@ -39,6 +42,16 @@ GoldRate = Annotated[
         le=0.5,
         allow_inf_nan=False,
         description="The share of gold queries among an annotator's queries, 0 to 0.5.",
+    ),
+]
+SecondShare = Annotated[
+    float,
+    Field(
+        ge=0,
+        le=1,
+        allow_inf_nan=False,
+        description="The share of the run's queries that a second annotator answers as well, 0 to 1. A demonstration "
+        "is never answered twice.",
     ),
 ]
 Units = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]

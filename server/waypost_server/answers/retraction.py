@@ -1,4 +1,4 @@
-"""Retraction: an annotator takes back an answer that the learner has not used."""
+"""Retraction: an answer that the learner has not used is taken back, by its annotator or by a reviewer."""
 
 from sqlalchemy import select, update
 
@@ -11,6 +11,7 @@ from waypost_server.db.tables import IS_LIVE, assignments
 from waypost_server.db.tables import ledger as ledger_table
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.transaction import Tx
+from waypost_server.gold import second
 from waypost_server.leases.assignments import find, view
 from waypost_server.leases.service import grant
 from waypost_server.queries import service as queries
@@ -45,12 +46,24 @@ def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Se
         raise errors.AnswerUsed("The learner has used this answer, so it can no longer be retracted.")
     if run.state == "finished":
         raise errors.RunFinished("The run is finished, so its answers can no longer be retracted.")
+    take_back(tx, run, query, given, "leased")
+    return view(tx, grant(tx, query.id, user, settings.lease_seconds, tab=body.tab))
+
+
+def take_back(tx: Tx, run: Record, query: Record, given: Record, state: wire.QueryState) -> None:
+    """Refund the answer that counts, and give its query, which must be locked like its run, a new revision and state.
+
+    Raises:
+        BudgetExhausted: the budget has too few units left for another answer.
+    """
     if run.gold_of is None:
         _refund(tx, run, query, given)
+    else:
+        second.settle(tx, query.id, done=False)
     tx.conn.execute(
         update(query_table)
         .where(query_table.c.id == query.id)
-        .values(state="leased", answer_id=None, revision=query.revision + 1)
+        .values(state=state, answer_id=None, differs=None, revision=query.revision + 1)
     )
     data = {"query": query.id, "answer": given.id, "units": to_units(given.units)}
     event = events.add(tx, run.id, "retracted", data)
@@ -58,7 +71,6 @@ def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Se
         more = {"event": event, "kind": query.kind, "episode": query.episode}
         outbox.announce(tx, "answer.retracted", run.id, data | more)
     tx.wake(queries.topic(query.id))
-    return view(tx, grant(tx, query.id, user, settings.lease_seconds, tab=body.tab))
 
 
 def _refund(tx: Tx, run: Record, query: Record, given: Record) -> None:

@@ -19,7 +19,7 @@ from waypost_server.db.prepared import Prepared, Record
 from waypost_server.db.tables import answers, assignments
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.transaction import UPSERTS, Tx
-from waypost_server.gold import schedule
+from waypost_server.gold import schedule, scoring, second
 from waypost_server.leases import active_time
 from waypost_server.leases import service as leases
 from waypost_server.leases.assignments import OwnAssignment, check_live, find, leased_after
@@ -90,7 +90,7 @@ _END = Prepared(
 _CLOSE = Prepared(
     update(query_table)
     .where(query_table.c.id == bindparam("query"))
-    .values(state="answered", answer_id=bindparam("answer"))
+    .values(state="answered", answer_id=bindparam("answer"), differs=bindparam("differs"))
 )
 
 
@@ -165,7 +165,8 @@ def _accept(tx: Tx, post: Post, case: Case, wanted: LeaseRequest | None) -> wire
     cost = pricing.cost(post.answer, runs.prices_of(case.run.prices))
     stored = _store(tx, post, case, case.query.revision, cost)
     if case.run.gold_of is not None:
-        schedule.score(tx, case.query.id, post.answer)
+        if not second.settle(tx, case.query.id, done=True):
+            schedule.score(tx, case.query.id, post.answer)
     else:
         entry = ledger.Entry(
             case.run.id,
@@ -179,7 +180,10 @@ def _accept(tx: Tx, post: Post, case: Case, wanted: LeaseRequest | None) -> wire
         )
         ledger.charge(tx, entry, case.query.reserve)
     _END.run(tx.conn, {"assignment": case.assignment.id, "now": tx.now})
-    _CLOSE.run(tx.conn, {"query": case.query.id, "answer": stored.id})
+    differs = scoring.differ(case.ask.suggestion, post.answer)
+    _CLOSE.run(tx.conn, {"query": case.query.id, "answer": stored.id, "differs": differs})
+    if case.run.second_answers > 0:
+        second.want(tx, case.run, case.query)
     data = {
         "query": case.query.id,
         "answer": stored.id,

@@ -61,6 +61,10 @@ ACCESS: Mapping[str, Access] = {
     "addGold": OWN_RUN,
     "retireGold": OWN_RUN,
     "listGold": _LEARN,
+    # review
+    "listReview": OWN_RUN,
+    "comment": OWN_RUN,
+    "sendBack": OWN_RUN,
     # assignments
     "lease": _ANSWER,
     "leaseBatch": _ANSWER,
@@ -80,8 +84,10 @@ ACCESS: Mapping[str, Access] = {
     "getRun": _ALL,
     "getCurves": _ALL,
     "getCosts": _ALL,
+    "getForecast": _ALL,
     "getFrame": _ALL,
     "listAtWork": _ALL,
+    "getOutlook": _ALL,
     "streamEvents": _ALL,
     "streamChanges": _ALL,
     "listQueries": _WATCH,
@@ -91,6 +97,7 @@ ACCESS: Mapping[str, Access] = {
     "listAnswers": _WATCH,
     "listLedger": _WATCH,
     "listRecords": _WATCH,
+    "getAgreement": _WATCH,
     "exportRun": _WATCH,
     "metrics": _WATCH,
     # the caller's own account, and practice
@@ -98,6 +105,7 @@ ACCESS: Mapping[str, Access] = {
     "logout": _ALL,
     "logoutEverywhere": _ALL,
     "myNumbers": _ALL,
+    "myReturned": _ALL,
     "myTokens": _ALL,
     "mySessions": _ALL,
     "createToken": Access(ANYONE, own="token"),

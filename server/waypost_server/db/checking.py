@@ -17,16 +17,18 @@ from waypost_server.db.tables import (
     IS_LIVE,
     answers,
     assignments,
+    comments,
     gold,
     gold_showings,
     ledger,
     metadata,
     queries,
     runs,
+    second_answers,
 )
 from waypost_server.db.transaction import Tx
 
-APPEND_ONLY = ("answers", "audit", "ledger", "events")  # tables whose rows triggers keep as they are
+APPEND_ONLY = ("answers", "audit", "ledger", "events", "comments")  # tables whose rows triggers keep as they are
 SHOWN = 5  # faults that a result names
 
 
@@ -163,6 +165,14 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         .where(runs.c.gold_of.is_(None), queries.c.run_priority != runs.c.priority),
     ),
     (
+        "An answer that was sent back belongs to the query of the comment, and counts no more.",
+        "comment",
+        select(comments.c.id)
+        .join(answers, answers.c.id == comments.c.answer_id)
+        .join(queries, queries.c.id == answers.c.query_id)
+        .where(or_(queries.c.id != comments.c.query_id, _counting)),
+    ),
+    (
         "A gold query is shown in the shadow of its run.",
         "query",
         select(gold_showings.c.query_id.label("id"))
@@ -170,6 +180,14 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         .join(queries, queries.c.id == gold_showings.c.query_id)
         .join(_shadow, _shadow.c.id == queries.c.run_id)
         .where(_shadow.c.gold_of.is_distinct_from(gold.c.run_id)),
+    ),
+    (
+        "A second answer is given in the shadow of its query's run.",
+        "query",
+        select(second_answers.c.query_id.label("id"))
+        .join(queries, queries.c.id == second_answers.c.query_id)
+        .join(_shadow, _shadow.c.id == queries.c.run_id)
+        .where(_shadow.c.gold_of.is_distinct_from(second_answers.c.run_id)),
     ),
 )
 
@@ -224,7 +242,8 @@ def _schema(conn: Connection) -> list[Result]:
     return [
         _told("The tables, columns and indexes are those of this version.", differing),
         _told(
-            "No statement can change an answer, an entry of the ledger, an event, or a row of the audit log.", missing
+            "No statement can change an answer, an entry of the ledger, an event, a comment or a row of the audit log.",
+            missing,
         ),
     ]
 

@@ -40,7 +40,9 @@ class Compiled:
     def row_of(self, values: Sequence[Any]) -> Any:
         """Return a row of the driver as a named tuple."""
         if self.truths:
-            values = [bool(one) if place in self.truths else one for place, one in enumerate(values)]
+            values = [
+                bool(one) if place in self.truths and one is not None else one for place, one in enumerate(values)
+            ]
         return self.row._make(values)
 
 

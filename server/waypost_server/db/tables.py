@@ -96,8 +96,11 @@ runs = Table(
     Column("gold_rate", Float, nullable=False, server_default=text("0")),
     # Set in a shadow run: the run whose gold queries are answered here. That run does not include its shadow's rows.
     Column("gold_of", Text, ForeignKey("runs.id")),
+    # The share of the run's queries that somebody else answers once more, in the shadow.
+    Column("second_answers", Float, nullable=False, server_default=text("0")),
     one_of("state", "running", "paused", "finished"),
     CheckConstraint("gold_rate >= 0 AND gold_rate <= 0.5", name="gold_rate"),
+    CheckConstraint("second_answers >= 0 AND second_answers <= 1", name="second_answers"),
     CheckConstraint("spent >= 0 AND reserved >= 0", name="money_not_negative"),
     CheckConstraint("budget IS NULL OR spent + reserved <= budget", name="budget_not_overspent"),
     CheckConstraint("(state = 'finished') = (finished_at IS NOT NULL)", name="finished_at"),
@@ -126,11 +129,14 @@ queries = Table(
     Column("created_at", Float, nullable=False),
     # The user who gave the last answer in this episode before the query was asked; leasing then reads no answers.
     Column("follows_user_id", RowId, ForeignKey("users.id")),
+    # Whether the answer that counts differs from the learner's suggestion; null if one of the two is missing.
+    Column("differs", Boolean),
     one_of("kind", *KINDS),
     # open -> leased -> answered | cancelled; leased -> open: released or expired; answered -> leased: retracted.
     one_of("state", "open", "leased", "answered", "cancelled"),
     CheckConstraint("(state = 'answered') = (answer_id IS NOT NULL)", name="answered"),
     CheckConstraint("NOT used OR state = 'answered'", name="used_is_answered"),
+    CheckConstraint("differs IS NULL OR state = 'answered'", name="differs_is_answered"),
     CheckConstraint("reserve >= 0 AND revision >= 0", name="not_negative"),
     UniqueConstraint("run_id", "episode", "ordinal"),
     sqlite_autoincrement=True,
@@ -150,6 +156,8 @@ Index(
 )
 Index("ix_queries_run_state", queries.c.run_id, queries.c.state, queries.c.episode)
 Index("ix_queries_run", queries.c.run_id, queries.c.id)
+DIFFERS = queries.c.differs.is_(True)  # as the partial index says it
+Index("ix_queries_differs", queries.c.run_id, queries.c.id, sqlite_where=DIFFERS, postgresql_where=DIFFERS)
 
 assignments = Table(
     "assignments",
@@ -232,6 +240,21 @@ ledger = Table(
     ),
     Index("ix_ledger_run", "run_id", "episode", "kind"),
     Index("ix_ledger_run_id", "run_id", "id"),
+    sqlite_autoincrement=True,
+)
+
+# Append-only (enforced by a trigger): what reviewers wrote about queries.
+comments = Table(
+    "comments",
+    metadata,
+    Column("id", RowId, primary_key=True),
+    Column("query_id", RowId, ForeignKey("queries.id"), nullable=False),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    Column("text", Text, nullable=False),
+    Column("answer_id", RowId, ForeignKey("answers.id"), unique=True),  # the answer that was sent back with it
+    Column("created_at", Float, nullable=False),
+    CheckConstraint("length(text) BETWEEN 1 AND 2000", name="length"),
+    Index("ix_comments_query", "query_id", "id"),
     sqlite_autoincrement=True,
 )
 
@@ -336,6 +359,25 @@ gold_showings = Table(
     CheckConstraint("n_right >= 0 AND n_right <= n_labels", name="right_of_labels"),
     Index("ix_probes_user", "user_id", "gold_id"),
     Index("ix_probes_gold", "gold_id"),
+)
+
+# The queries of runs that somebody else answers once more, and their copies in the shadow, once they are handed out.
+second_answers = Table(
+    "second_answers",
+    metadata,
+    Column("of_query_id", RowId, ForeignKey("queries.id"), primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), nullable=False),
+    Column("query_id", RowId, ForeignKey("queries.id"), unique=True),
+    Column("done", Boolean, nullable=False),
+    CheckConstraint("NOT done OR query_id IS NOT NULL", name="done_has_query"),
+)
+IS_WAITING = second_answers.c.done.is_(False)  # as the partial index says it
+Index(
+    "ix_second_answers_waiting",
+    second_answers.c.run_id,
+    second_answers.c.of_query_id,
+    sqlite_where=IS_WAITING,
+    postgresql_where=IS_WAITING,
 )
 
 # How many queries of a run an annotator has got while the run had a gold rate.

@@ -1,10 +1,8 @@
 """Gold queries: queries of a run with known answers. They come from answered queries of the run or from a client.
 
-They are answered in the run's shadow: a separate row of `runs` that no API call shows. The ledger, answers, events and
-curves belong to one run each, so those of the run itself contain nothing from its gold queries.
+They are answered in the run's shadow (`gold/shadow.py`), so the run itself contains nothing from them.
 """
 
-import secrets
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,17 +11,13 @@ from sqlalchemy import ColumnElement, Row, case, func, insert, select, update
 from waypost import wire
 from waypost_server import errors
 from waypost_server.db import canonical
-from waypost_server.db.prepared import Record
 from waypost_server.db.tables import answers, gold, gold_showings, users
 from waypost_server.db.tables import queries as query_table
-from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
-from waypost_server.gold import scoring
+from waypost_server.gold import scoring, shadow
 from waypost_server.queries import checks
 from waypost_server.queries import service as queries
 from waypost_server.runs import service as runs
-
-_COPIED = ("user_id", "name", "algorithm", "seed", "vocabulary", "prices")
 
 
 @dataclass(frozen=True)
@@ -57,7 +51,7 @@ def add(tx: Tx, run: str, wanted: wire.GoldPost, user: int) -> wire.GoldList:
         checks.check_ask(one.ask, names, [*at, "ask"])
         scoring.check(one.ask, one.known, names, [*at, "known"])
         items.append(Item(one.ask, one.known))
-    _ensure_shadow(tx, row)
+    shadow.ensure(tx, row)
     for item in items:
         _store(tx, run, item)
     return of_run(tx, run)
@@ -75,31 +69,6 @@ def _answered(tx: Tx, run: str, query: int) -> Item:
         raise errors.NotAnswered(f"Query {query} has no answer, so it cannot be gold.")
     known = scoring.exactly(queries.ANSWER.validate_json(found.content))
     return Item(queries.ASK.validate_json(found.ask), known, query, found.user_id)
-
-
-def _ensure_shadow(tx: Tx, row: Record) -> None:
-    if shadow_of(tx, row.id) is not None:
-        return
-    copied = {name: getattr(row, name) for name in _COPIED}
-    # Paused, so that only `schedule` hands out its queries.
-    state = {"state": "finished", "finished_at": tx.now} if row.state == "finished" else {"state": "paused"}
-    tx.conn.execute(
-        insert(run_table).values(
-            id=secrets.token_hex(6),
-            gold_of=row.id,
-            config="{}",
-            spent=0,
-            reserved=0,
-            created_at=tx.now,
-            **copied,
-            **state,
-        )
-    )
-
-
-def shadow_of(tx: Tx, run: str) -> str | None:
-    """Return the id of a run's shadow; None if the run never had gold queries."""
-    return tx.conn.execute(select(run_table.c.id).where(run_table.c.gold_of == run)).scalar_one_or_none()
 
 
 def _store(tx: Tx, run: str, item: Item) -> None:

@@ -65,9 +65,21 @@ class PracticeSet:
         scoring.check(one.ask, one.known, self._names, [*at, "known"])
 
     def questions(self) -> wire.Practice:
-        """Return the queries without their known answers."""
+        """Return the queries without their known answers, except those of the examples."""
         asks = [wire.PracticeQuery(id=place, ask=one.ask) for place, one in enumerate(self._file.exercises)]
-        return wire.Practice(vocabulary=self._file.vocabulary, queries=asks)
+        return wire.Practice(vocabulary=self._file.vocabulary, queries=asks, examples=self._examples())
+
+    def _examples(self) -> list[wire.WorkedExample]:
+        """Return a worked example of each kind of which a query is left to answer."""
+        by_kind: dict[wire.Kind, list[int]] = {}
+        for place, one in enumerate(self._file.exercises):
+            by_kind.setdefault(one.ask.kind, []).append(place)
+        return [self._example(places[-1]) for places in by_kind.values() if len(places) > 1]
+
+    def _example(self, place: int) -> wire.WorkedExample:
+        one = self._file.exercises[place]
+        feedback = wire.Feedback(marks=scoring.solved(one.known), reasons=one.reasons, is_right=True)
+        return wire.WorkedExample(query=place, feedback=feedback)
 
     def mark(self, query: int, answer: wire.Answer) -> wire.Feedback:
         """Score an answer.

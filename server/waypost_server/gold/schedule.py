@@ -15,13 +15,13 @@ from typing import Any
 from sqlalchemy import Row, bindparam, exists, func, insert, select, update
 
 from waypost import wire
-from waypost_server.db import canonical, wakeups
+from waypost_server.db import wakeups
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import gold, gold_showings, gold_streams, skips
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
-from waypost_server.gold import scoring
+from waypost_server.gold import scoring, shadow
 from waypost_server.queries import service as queries
 from waypost_server.runs import service as runs
 
@@ -132,23 +132,7 @@ def _show(tx: Tx, user: int, chosen: Row[*tuple[Any, ...]], due: Row[Any]) -> in
     disguised = queries.ASK.validate_json(chosen.ask).model_copy(
         update={"episode": due.episode, "ordinal": due.ordinal}
     )
-    text = canonical.text(disguised.model_dump(mode="json"))
-    ordinal = select(func.count()).where(query_table.c.run_id == due.shadow)
-    row = {
-        "run_id": due.shadow,
-        "episode": 0,
-        "ordinal": tx.conn.execute(ordinal).scalar_one(),
-        "kind": disguised.kind,
-        "state": "open",
-        "priority": due.priority,
-        "ask": text,
-        "digest": canonical.digest(text),
-        "reserve": 0,
-        "revision": 0,
-        "used": False,
-        "created_at": due.created_at,
-    }
-    query = int(tx.conn.execute(insert(query_table).values(row).returning(query_table.c.id)).scalar_one())
+    query = shadow.open_query(tx, due.shadow, disguised, due)
     tx.conn.execute(insert(gold_showings).values(query_id=query, gold_id=chosen.id, user_id=user))
     return query
 

@@ -63,20 +63,57 @@ def check(ask: wire.Ask, known: wire.Known, names: checks.Names, at: Location) -
             names.check_actions([*chain.from_iterable(known.actions)], [*at, "actions"])
 
 
+def solved(known: wire.Known) -> list[wire.Mark]:
+    """Return the labels of a right answer, each marked as right."""
+    right = _right(known)
+    return _marks([choices[0] for choices in right], right)
+
+
+def _right(known: wire.Known) -> Sequence[Sequence[str]]:
+    match known:
+        case wire.KnownVerdict():
+            return [[known.verdict]]
+        case wire.KnownSubgoals():
+            return known.subgoals
+        case wire.KnownSegment():
+            return [*known.actions, [NOT_DONE if known.end is None else DONE]]
+        case wire.KnownActions():
+            return known.actions
+
+
+def labels(answer: wire.Answer) -> list[str | None]:
+    """Return the single labels of an answer, one per state or segment; None for a state after the segment's end.
+
+    A demonstration has none, because two demonstrations are not about the same states.
+    """
+    match answer:
+        case wire.InspectAnswer():
+            return [answer.verdict]
+        case wire.LabelHiAnswer():
+            return [*answer.subgoals]
+        case wire.LabelLoAnswer():
+            return _of_states(answer)
+        case wire.LabelFullAnswer():
+            return [*answer.actions]
+        case wire.HierDemoAnswer():
+            return []
+        case _:
+            assert_never(answer)
+
+
+def differ(one: wire.Answer | None, other: wire.Answer) -> bool | None:
+    """Return whether two answers to a query differ in a label; None if they cannot be compared."""
+    if one is None or one.kind == "hier_demo":
+        return None
+    return labels(one) != labels(other)
+
+
 def marks(known: wire.Known, answer: wire.Answer) -> list[wire.Mark]:
     """Compare each label of an answer with the known answer. The answer must fit the query."""
-    match known, answer:
-        case wire.KnownVerdict(), wire.InspectAnswer():
-            return _marks([answer.verdict], [[known.verdict]])
-        case wire.KnownSubgoals(), wire.LabelHiAnswer():
-            return _marks(answer.subgoals, known.subgoals)
-        case wire.KnownSegment(), wire.LabelLoAnswer():
-            right = [*known.actions, [NOT_DONE if known.end is None else DONE]]
-            return _marks(_of_states(answer)[: len(right)], right)
-        case wire.KnownActions(), wire.LabelFullAnswer():
-            return _marks(answer.actions, known.actions)
-        case _:
-            raise TypeError(f"{answer.kind} answers no {known.kind}")
+    if known.kind != answer.kind:
+        raise TypeError(f"{answer.kind} answers no {known.kind}")
+    right = _right(known)
+    return _marks(labels(answer)[: len(right)], right)
 
 
 def _end(answer: wire.LabelLoAnswer) -> int | None:

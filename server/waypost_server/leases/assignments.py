@@ -13,6 +13,7 @@ from waypost_server.db.tables import IS_LIVE, assignments, users
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
+from waypost_server.queries import comments
 from waypost_server.queries import service as queries
 from waypost_server.runs import service as runs
 
@@ -40,6 +41,7 @@ _own = run_table.alias("own")
 _VIEW = Prepared(
     select(assignments.c.id, assignments.c.token, assignments.c.leased_at, assignments.c.expires_at)
     .add_columns(query_table.c.id.label("query"), query_table.c.priority, query_table.c.created_at, query_table.c.ask)
+    .add_columns(query_table.c.revision)
     .add_columns(run_table.c.id.label("run"), run_table.c.name, run_table.c.vocabulary, run_table.c.prices)
     .add_columns(users.c.name.label("annotator"))
     .join(query_table, query_table.c.id == assignments.c.query_id)
@@ -140,6 +142,7 @@ def view(tx: Tx, assignment: int) -> wire.Assignment:
         ),
         run=wire.AssignedRun(id=row.run, name=row.name, vocabulary=runs.vocabulary_of(row.vocabulary)),
         price=pricing.price(ask, runs.prices_of(row.prices)),
+        comments=comments.sent_back(tx, row.query) if row.revision else [],  # most queries were never answered before
         leased_at=row.leased_at,
         expires_at=row.expires_at,
         lease_seconds=row.expires_at - row.leased_at,

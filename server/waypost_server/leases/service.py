@@ -12,7 +12,7 @@ from waypost_server.db import wakeups
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, assignments, queries, skips
 from waypost_server.db.transaction import Tx
-from waypost_server.gold import schedule
+from waypost_server.gold import schedule, second
 from waypost_server.leases import active_time, closed_tabs, presence, selection
 from waypost_server.leases.assignments import find_live, view
 from waypost_server.leases.request import LeaseRequest
@@ -43,7 +43,12 @@ def lease(tx: Tx, request: LeaseRequest) -> wire.Assignment | None:
     if request.tab is not None and closed_tabs.is_closed(tx, request.user, request.tab):
         return None
     query = selection.select_next(tx, request)
-    return None if query is None else _hand_out(tx, request, query)
+    if query is not None:
+        return _hand_out(tx, request, query)
+    if request.ahead or request.defer > 0:  # second answers are for people who would otherwise wait
+        return None
+    copy = second.take(tx, request.user, request.kinds, request.run)
+    return None if copy is None else _grant(tx, request, copy)
 
 
 def lease_batch(tx: Tx, request: LeaseRequest, count: int) -> list[wire.Assignment]:
@@ -66,8 +71,15 @@ def _begin(tx: Tx, request: LeaseRequest) -> None:
 
 
 def _hand_out(tx: Tx, request: LeaseRequest, query: int) -> wire.Assignment:
-    """Lease a selected query, or a gold query in its place."""
-    query = schedule.replace_with_gold(tx, request.user, request.kinds, query)
+    """Lease a selected query, or a query of the run's shadow in its place: for a second answer, or gold."""
+    copy = None if request.defer > 0 else second.take_in_place_of(tx, request.user, request.kinds, query)
+    if copy is not None:
+        tx.wake(wakeups.QUEUE)  # `query` is free for other annotators who wait
+        return _grant(tx, request, copy)
+    return _grant(tx, request, schedule.replace_with_gold(tx, request.user, request.kinds, query))
+
+
+def _grant(tx: Tx, request: LeaseRequest, query: int) -> wire.Assignment:
     assignment = grant(
         tx,
         query,

@@ -5,6 +5,7 @@ from collections import defaultdict, deque
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
+from typing import get_args
 
 from sqlalchemy import func, select
 
@@ -14,7 +15,7 @@ from waypost_server.db.tables import episodes, ledger
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import service as runs
 
-LEVELS = ("0.8", "0.9", "0.95", "0.99")
+LEVELS: tuple[wire.SuccessLevel, ...] = get_args(wire.SuccessLevel)
 
 
 @dataclass(frozen=True)
@@ -32,12 +33,14 @@ class Spent:
 
 def trailing(outcomes: Sequence[bool | None], window: int = runs.TRAILING) -> list[float | None]:
     """Return the success rate over the last `window` test episodes at each episode. Untested episodes do not count."""
-    recent: deque[bool] = deque(maxlen=window)
+    recent: deque[bool] = deque()
+    passed = 0
     rates: list[float | None] = []
     for outcome in outcomes:
         if outcome is not None:
             recent.append(outcome)
-        rates.append(sum(recent) / len(recent) if recent else None)
+            passed += outcome - (recent.popleft() if len(recent) > window else False)
+        rates.append(passed / len(recent) if recent else None)
     return rates
 
 
@@ -85,7 +88,7 @@ def _ledger(tx: Tx, run: str) -> list[Spent]:
     return [Spent(row[0], row[1], row[2], int(row[3]), int(row[4]), row[5], row[6]) for row in rows]
 
 
-def _tests(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:
+def tests_of(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:
     """Return the reported episodes and the results of their tests."""
     rows = tx.conn.execute(
         select(episodes.c.episode, episodes.c.test_success).where(episodes.c.run_id == run).order_by(episodes.c.episode)
@@ -147,7 +150,7 @@ def _units(micro: Iterable[float]) -> list[float]:
 def costs(tx: Tx, run: str) -> wire.Costs:
     """Return the ledger's sums, and when the success rate first reached each level."""
     row = runs.find(tx, run)
-    reported, tests = _tests(tx, run)
+    reported, tests = tests_of(tx, run)
     spent = _ledger(tx, run)
     by_kind = {kind: _sum([entry for entry in spent if entry.kind == kind]) for kind in wire.KINDS}
     total = _sum(spent)

@@ -10,7 +10,7 @@ from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.problems import refusals
-from waypost_server.runs import curves, episodes, listing
+from waypost_server.runs import curves, episodes, forecasts, listing
 from waypost_server.runs import service as runs
 
 router = APIRouter(prefix="/runs", tags=["runs"], route_class=JsonRoute)
@@ -82,3 +82,14 @@ async def get_curves(
 async def get_costs(run: str, context: Ctx, _: Allowed) -> wire.Costs:
     """Return the ledger's sums, by kind of query."""
     return await context.db.read(lambda tx: curves.costs(tx, run))
+
+
+@router.get("/{run}/forecast", operation_id="getForecast", responses=refusals(errors.NotFound))
+async def get_forecast(
+    run: str,
+    context: Ctx,
+    _: Allowed,
+    target: Annotated[wire.SuccessLevel, Query(description="The success rate over 100 test episodes.")] = "0.9",
+) -> wire.Forecast:
+    """Forecast how many more units the run needs to reach a success rate."""
+    return await context.db.read(lambda tx: forecasts.forecast(tx, run, target))

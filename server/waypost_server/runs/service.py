@@ -86,6 +86,7 @@ def of_row(row: Record) -> wire.Run:
         success_rate=row.success_rate,
         open_queries=row.open_queries,
         gold_rate=row.gold_rate,
+        second_answers=row.second_answers,
         result=None if row.result is None else json.loads(row.result),
         created_at=row.created_at,
         finished_at=row.finished_at,
@@ -132,6 +133,18 @@ def lock_own(tx: Tx, run: str, user: int) -> Record:
     return row
 
 
+def find_own(tx: Tx, run: str, user: int, role: wire.Role) -> Record:
+    """Return a run's row to a user who may change the run, without locking it: for operations that only read.
+
+    Raises:
+        NotFound: there is no such run.
+        Forbidden: the user may not change the run.
+    """
+    row = find(tx, run)
+    access.check_owner(tx, run, row.user_id, user, role)
+    return row
+
+
 def account(row: Record) -> Account:
     """Return the account of a locked run."""
     return Account(row.id, row.budget, row.spent, row.reserved)
@@ -172,6 +185,7 @@ def create(tx: Tx, wanted: wire.RunCreate, user: int) -> wire.Run:
             spent=0,
             reserved=0,
             episodes=wanted.episodes,
+            second_answers=wanted.second_answers,
             created_at=tx.now,
         )
     )
@@ -203,6 +217,8 @@ def patch(tx: Tx, run: str, wanted: wire.RunPatch, user: int) -> wire.Run:
         changes["budget"] = _checked_budget(row, wanted.budget)
     if wanted.gold_rate is not None:
         changes["gold_rate"] = wanted.gold_rate
+    if wanted.second_answers is not None:
+        changes["second_answers"] = wanted.second_answers
     if wanted.state is not None and wanted.state != row.state:
         changes |= _new_state(tx, row, wanted.state)
     if changes:

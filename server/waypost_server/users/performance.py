@@ -28,11 +28,13 @@ def me(tx: Tx, user: int) -> wire.Me:
     counted = (
         select(answers).join(queries, queries.c.answer_id == answers.c.id).where(answers.c.user_id == user).subquery()
     )
+    today = counted.c.created_at >= _midnight(tx)
     total = tx.conn.execute(
         select(
             func.count(),
             func.coalesce(func.sum(counted.c.units), 0),
-            func.count().filter(counted.c.created_at >= _midnight(tx)),
+            func.count().filter(today),
+            func.coalesce(func.sum(counted.c.active_seconds).filter(today), 0.0),
         ).select_from(counted)
     ).one()
     newest = select(counted.c.active_seconds).order_by(counted.c.id.desc()).limit(RECENT_ANSWERS)
@@ -49,6 +51,7 @@ def me(tx: Tx, user: int) -> wire.Me:
         role=who.role,
         answers=total[0],
         answers_today=total[2],
+        active_seconds_today=total[3],
         median_seconds=statistics.median(recent) if recent else None,
         units=to_units(int(total[1])),
         held=held,

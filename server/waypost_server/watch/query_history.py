@@ -8,6 +8,7 @@ from waypost import wire
 from waypost.prices import to_units
 from waypost_server.db.tables import answers, assignments, ledger, queries, users
 from waypost_server.db.transaction import Tx
+from waypost_server.queries import comments
 from waypost_server.queries.service import ANSWER, view
 from waypost_server.watch.ledger_rows import ENTRIES, entries_of
 
@@ -31,6 +32,7 @@ def history(tx: Tx, query: int) -> wire.QueryHistory:
     return wire.QueryHistory(
         assignments=past,
         ledger=entries_of(tx, found.run, tx.conn.execute(charged).all()),
+        comments=comments.of_query(tx, query),
         previous=_neighbor(tx, found, later=False),
         next=_neighbor(tx, found, later=True),
     )

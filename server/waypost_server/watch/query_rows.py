@@ -5,13 +5,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import ColumnElement, Row, Select, and_, func, or_, select
+from sqlalchemy import ColumnElement, Row, Select, and_, exists, func, or_, select
 from sqlalchemy.sql.selectable import FromClause
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
+from waypost_server.db.tables import DIFFERS, IS_LIVE, answers, assignments, gold_showings, queries, users
 from waypost_server.db.transaction import Tx
+from waypost_server.gold import second, shadow
 from waypost_server.queries.service import ANSWER
 from waypost_server.runs import service as runs
 from waypost_server.watch.row_pages import RowPage
@@ -25,6 +26,7 @@ class QueryFilter:
     kind: wire.Kind | None = None
     episode: int | None = None
     annotator: str | None = None
+    disagrees: wire.Disagreement | None = None  # only answers that differ from this
 
 
 _annotator = users.alias("annotator")
@@ -50,7 +52,10 @@ _ROWS: Select[Any] = select(
 def query_page(tx: Tx, run: str, chosen: QueryFilter, page: RowPage) -> wire.QueryPage:
     """Return one page of a run's queries, newest first."""
     runs.find(tx, run)
-    conditions = _query_conditions(run, chosen)
+    # Gold queries are answered in the run's shadow, and no other filter finds them.
+    conditions = _query_conditions(shadow.of(tx, run) if chosen.disagrees == "gold" else run, chosen)
+    if chosen.disagrees == "second":
+        conditions.append(queries.c.id.in_(second.disagreeing(tx, run)))
     counted = select(func.count(), func.max(queries.c.id), func.min(queries.c.id)).where(*conditions)
     joined: FromClause = queries if chosen.annotator is None else _FROM
     total, newest, oldest = tx.conn.execute(counted.select_from(joined)).one()
@@ -60,7 +65,7 @@ def query_page(tx: Tx, run: str, chosen: QueryFilter, page: RowPage) -> wire.Que
     return wire.QueryPage(rows=shown, total=total, newest=newest, oldest=oldest)
 
 
-def _query_conditions(run: str, chosen: QueryFilter) -> list[ColumnElement[bool]]:
+def _query_conditions(run: str | None, chosen: QueryFilter) -> list[ColumnElement[bool]]:
     conditions: list[ColumnElement[bool]] = [queries.c.run_id == run]
     if chosen.state is not None:
         conditions.append(queries.c.state == chosen.state)
@@ -70,6 +75,11 @@ def _query_conditions(run: str, chosen: QueryFilter) -> list[ColumnElement[bool]
         conditions.append(queries.c.episode == chosen.episode)
     if chosen.annotator is not None:
         conditions.append(or_(_annotator.c.name == chosen.annotator, _holder.c.name == chosen.annotator))
+    if chosen.disagrees == "suggestion":
+        conditions.append(DIFFERS)
+    if chosen.disagrees == "gold":
+        wrong = (gold_showings.c.query_id == queries.c.id, gold_showings.c.n_right < gold_showings.c.n_labels)
+        conditions.append(exists().where(*wrong))
     return conditions
 
 

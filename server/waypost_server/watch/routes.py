@@ -13,7 +13,7 @@ from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath, RowQuery
 from waypost_server.http.problems import refusals
 from waypost_server.runs import service as runs
-from waypost_server.watch import at_work, export, ledger_rows, query_history, query_rows
+from waypost_server.watch import at_work, export, ledger_rows, outlook, query_history, query_rows
 from waypost_server.watch.records import reading
 from waypost_server.watch.row_pages import RowPage
 
@@ -86,6 +86,12 @@ async def list_at_work(context: Ctx, _: Allowed, run: str | None = None) -> wire
     if run is not None:
         await context.db.read(lambda tx: runs.find(tx, run))
     return await context.db.read(lambda tx: at_work.at_work(tx, settings.presence_seconds, settings.lease_seconds, run))
+
+
+@router.get("/outlook", operation_id="getOutlook")
+async def get_outlook(context: Ctx, _: Allowed, run: Word = None) -> wire.Outlook:
+    """Return what the learners do now and when they will ask, for annotators who wait; `run` is the first run."""
+    return await context.db.read(lambda tx: outlook.outlook(tx, run))
 
 
 @router.get(

@@ -54,7 +54,7 @@ def test_a_click_on_the_path_goes_there_and_inspections_need_no_keys(
     shows(page, f"step 0 of {21 if kind == 'inspect_full' else 13}, action up, subgoal north")
     hand.click((14, 14))  # nothing is there
     shows(page, f"step 0 of {21 if kind == 'inspect_full' else 13}, action up, subgoal north")
-    hand.press("Fail")
+    hand.press("No, it failed")
     assert learner.answer_of(query) == {"kind": kind, "verdict": "fail"}
 
 
@@ -81,7 +81,7 @@ def test_a_segment_is_selected_and_its_subgoal_chosen_on_the_map(learner: Learne
     expect(current).to_contain_text("1")
     hand.click((2, 14))  # the target
     expect(current).to_contain_text("2")
-    hand.press("Keep rest, submit")
+    hand.press("Keep the rest, send")
     assert learner.answer_of(query)["subgoals"] == ["go_to_target", "north", "east", "north", "south"]
 
 
@@ -93,7 +93,7 @@ def test_the_right_way_is_drawn_for_all_segments_and_undone_at_once(learner: Lea
     expect(page.get_by_text("0 of 5")).to_be_visible()
     hand.draw(*WAY)
     expect(page.get_by_text("5 of 5")).to_be_visible()
-    hand.press("Submit")
+    hand.press("Send answer")
     assert learner.answer_of(query)["subgoals"] == ["north", "north", "north", "north", "east"]
 
 
@@ -106,7 +106,7 @@ def test_the_right_way_is_drawn_for_the_states_of_a_segment(learner: Learner, op
     assert page.evaluate("scrollY") == before, "a finger that draws does not scroll"
     hand.press("Done here")
     hand.draw((6, 1), (6, 3))  # the states that the first way does not pass
-    hand.press("Submit")
+    hand.press("Send answer")
     assert learner.answer_of(query) == {
         "kind": "label_lo",
         "actions": ["up", "right", "right", "right", "right", "right"],
@@ -118,14 +118,14 @@ def test_the_right_way_is_drawn_through_several_segments(learner: Learner, open_
     query, page, hand = begin(learner, open_with, ask("label_full"))
     hand.draw((14, 2), (10, 2), (10, 1), (6, 1), (6, 4), (6, 6))
     expect(page.get_by_text("13 of 13")).to_be_visible()
-    hand.press("Submit")
+    hand.press("Send answer")
     assert learner.answer_of(query)["actions"] == [*["up"] * 4, "left", *["up"] * 4, *["right"] * 4]
 
 
 def test_a_way_beside_the_path_says_why_nothing_is_labeled(learner: Learner, open_with: OpenWith) -> None:
     _, page, hand = begin(learner, open_with, ask("label_lo"))
     hand.draw((14, 13), (14, 15))
-    expect(page.get_by_text("This way passes nothing that the query asks about.")).to_be_visible()
+    expect(page.get_by_text("This way passes nothing that the question is about.")).to_be_visible()
     hand.draw((8, 1), (6, 1), (8, 1))  # back at its beginning, it is given up
     expect(page.get_by_text("0 of 7")).to_be_visible()
 
@@ -160,7 +160,12 @@ def test_on_a_phone_map_and_buttons_are_in_reach_together(
     page = open_page(f"/work?run={run}", size=PHONE, touch=True, scheme=scheme)
     wait_for_heading(page, ask(kind)["question"])
     expect(page.locator("canvas")).to_be_in_viewport(ratio=1)
-    names = ["Keep", "Keep rest, submit", "Undo label", *(["Done here", "First wrong"] if kind == "label_lo" else [])]
+    names = [
+        "Keep its choice",
+        "Keep the rest, send",
+        "Undo label",
+        *(["Done here", "First wrong"] if kind == "label_lo" else []),
+    ]
     for name in names:
         button = page.get_by_role("button", name=name, exact=False).first
         expect(button).to_be_in_viewport(ratio=1)

@@ -42,6 +42,9 @@ MATRIX: dict[str, set[str]] = {
     "addGold": OWNER,
     "retireGold": OWNER,
     "listGold": LEARNERS,
+    "listReview": OWNER,
+    "comment": OWNER,
+    "sendBack": OWNER,
     "putFrames": LEARNERS,
     "missingFrames": LEARNERS,
     "lease": ANNOTATORS,
@@ -76,6 +79,7 @@ MATRIX: dict[str, set[str]] = {
     "me": EVERYBODY,
     "logout": EVERYBODY,
     "myNumbers": EVERYBODY,
+    "myReturned": EVERYBODY,
     "myTokens": EVERYBODY,
     "mySessions": EVERYBODY,
     "logoutEverywhere": EVERYBODY,
@@ -86,12 +90,15 @@ MATRIX: dict[str, set[str]] = {
     "getRun": EVERYBODY,
     "getCurves": EVERYBODY,
     "getCosts": EVERYBODY,
+    "getForecast": EVERYBODY,
     "streamEvents": EVERYBODY,
     "streamChanges": EVERYBODY,
     "listAtWork": EVERYBODY,
+    "getOutlook": EVERYBODY,
     "listQueryRows": WATCHERS,
     "listLedger": WATCHERS,
     "listRecords": WATCHERS,
+    "getAgreement": WATCHERS,
     "getHistory": WATCHERS,
     "exportRun": WATCHERS,
     "listQueries": WATCHERS,
@@ -116,7 +123,7 @@ class Scene:
         self.item = owner.post(f"/runs/{self.run}/gold", gold)["gold"][0]["id"]
         owner.ask(self.run, query(), query("hier_demo", ordinal=1), query("label_hi", ordinal=2))
         self.answered = holder.lease(run=self.run, kinds=["inspect_full"])
-        holder.answer(self.answered)
+        self.answer = holder.answer(self.answered)["answer"]
         self.held = holder.lease(run=self.run, kinds=["hier_demo"])
         self.practice = owner.get("/practice")["queries"][0]["ask"]
         self.user = service.admin.post("/users", {"name": f"somebody in {self.run}", "role": "viewer"}, 201)["id"]
@@ -156,6 +163,8 @@ BODIES: dict[str, Body] = {
     "reportEpisodes": lambda _: {"episodes": [RESULT]},
     "ask": lambda _: {"queries": [query(episode=3)]},
     "addGold": lambda scene: {"answered": [scene.answered["query"]["id"]]},
+    "comment": lambda _: {"text": "Why?"},
+    "sendBack": lambda scene: {"answer": scene.answer, "text": "Look again."},
     "putFrames": lambda scene: {"frames": [scene.frame]},
     "missingFrames": lambda scene: {"hashes": [scene.frame["hash"]]},
     "lease": lambda _: {},

@@ -12,7 +12,7 @@ from waypost_server.cli import app
 
 
 def use(service: Service) -> None:
-    """Ask, answer, retract, come too late, skip, release, cancel, and answer gold queries."""
+    """Ask, answer, retract, come too late, skip, release, cancel, answer gold queries, send back, and answer twice."""
     run = service.learner.create_run(budget=1_000)
     service.learner.ask(run, *(query(ordinal=n) for n in range(6)))
     held = service.annotator.lease()
@@ -31,9 +31,13 @@ def use(service: Service) -> None:
     service.learner.patch(run, gold_rate=0.5)
     for _ in range(2):
         service.annotator.answer(service.annotator.lease())
-    done = service.learner.create_run()
-    service.learner.ask(done, query(), query(ordinal=1))
+    done = service.learner.create_run(second_answers=1.0)
+    (first, _) = service.learner.ask(done, query(), query(ordinal=1))
+    given = service.annotator.answer(service.annotator.lease(run=done))
+    back = {"answer": given["answer"], "text": "Look again."}
+    service.learner.post(f"/queries/{first['id']}/send-back", back, 201)
     service.annotator.answer(service.annotator.lease(run=done))
+    service.admin.answer(service.admin.lease(run=done))
     service.learner.patch(done, state="finished")
 
 
@@ -53,7 +57,7 @@ def check(url: str, status: int = 0) -> list[dict[str, object]]:
 
 
 def test_a_store_that_was_used_in_every_way_is_sound(used: str) -> None:
-    assert [result["n_faults"] for result in check(used)] == [0] * (17 if used.startswith("sqlite") else 15)
+    assert [result["n_faults"] for result in check(used)] == [0] * (19 if used.startswith("sqlite") else 17)
 
 
 def test_it_says_what_holds_and_what_does_not(used: str) -> None:
@@ -82,7 +86,7 @@ def unguard(conn: Connection) -> None:
             conn.execute(text(f"DROP TRIGGER {trigger}"))
         conn.execute(text("DROP INDEX uq_assignments_live"))
     else:
-        for table in ("answers", "ledger", "events", "queries", "assignments", "runs"):
+        for table in ("answers", "ledger", "events", "queries", "assignments", "runs", "comments", "second_answers"):
             conn.execute(text(f"ALTER TABLE {table} DISABLE TRIGGER ALL"))
         checks = conn.execute(
             text("SELECT conrelid::regclass, conname FROM pg_constraint WHERE contype = 'c' AND conrelid != 0")
@@ -105,6 +109,8 @@ DAMAGES = {
     "UPDATE runs SET state = 'finished' WHERE state = 'running'": "A finished run has no query without an answer.",
     "UPDATE queries SET run_priority = 9 WHERE state = 'open'": "A query has the priority of its run.",
     "UPDATE probes SET query_id = (SELECT min(id) FROM queries)": "A gold query is shown in the shadow of its run.",
+    "UPDATE comments SET query_id = (SELECT max(id) FROM queries)": "An answer that was sent back belongs to the query",
+    "UPDATE second_answers SET query_id = of_query_id": "A second answer is given in the shadow of its query's run.",
 }
 
 
@@ -134,7 +140,10 @@ def test_a_store_that_does_not_exist_is_not_created(database_url: str, tmp_path:
     [
         ("ALTER TABLE runs ADD COLUMN mine TEXT", "The tables, columns and indexes are those of this version."),
         ("DROP INDEX uq_runs_gold_of", "The tables, columns and indexes are those of this version."),
-        ("{drop}", "No statement can change an answer, an entry of the ledger, an event, or a row of the audit log."),
+        (
+            "{drop}",
+            "No statement can change an answer, an entry of the ledger, an event, a comment or a row of the audit log.",
+        ),
     ],
 )
 def test_a_store_whose_schema_was_changed_is_named(used: str, statement: str, fact: str) -> None:

@@ -35,11 +35,18 @@ def test_every_best_answer_is_right_and_every_label_has_its_reason(lite: Service
     assert all(mark["is_right"] and mark["given"] in mark["right"] for mark in feedback["marks"])
 
 
-def test_all_kinds_but_demonstrations_are_practiced_and_nothing_gives_the_answer_away(lite: Service) -> None:
+def test_all_kinds_but_demonstrations_are_practiced_and_only_examples_give_the_answer_away(lite: Service) -> None:
     found = lite.viewer.get("/practice")
     kinds = [one["ask"]["kind"] for one in found["queries"]]
     assert sorted(set(kinds)) == ["inspect_full", "inspect_lo", "label_full", "label_hi", "label_lo"]
     assert all(set(one) == {"id", "ask"} for one in found["queries"])
+    examples = {found["queries"][one["query"]]["ask"]["kind"]: one for one in found["examples"]}
+    assert sorted(examples) == sorted(set(kinds)), "a worked example of each kind"
+    for kind, one in examples.items():
+        assert one["query"] > kinds.index(kind), "another query of the kind is left to answer"
+        marks = one["feedback"]["marks"]
+        assert all(mark["is_right"] and mark["given"] in mark["right"] for mark in marks)
+        assert len(marks) == len(one["feedback"]["reasons"])
     verdicts = [one["known"]["verdict"] for one in EXERCISES if "verdict" in one["known"]]
     assert sorted(verdicts) == ["fail", "fail", "pass", "pass"]
 

@@ -138,25 +138,28 @@ def test_a_result_that_makes_no_sense_is_refused(lite: Service, wrong: Json) -> 
     report(lite, lite.learner.create_run(), result(0) | wrong, expect=422)
 
 
-def filled(service: Service, run: str, n_episodes: int, per_episode: int) -> None:
-    """Fill a run with answered queries, by the shortest way."""
+def filled(service: Service, run: str, n_episodes: int, per_episode: int, active: float = 0.0) -> None:
+    """Fill a run with answered queries of one unit, by the shortest way; `active`: the annotator's seconds for each."""
     ask = (
         "INSERT INTO queries (run_id, episode, ordinal, kind, state, priority, ask, digest, reserve, revision, used, "
         "created_at) VALUES (:run, :e, :o, 'label_lo', 'open', 0, :ask, '', 0, 0, :no, 0)"
     )
     lease = (
         "INSERT INTO assignments (query_id, user_id, token, state, deferring, leased_at, expires_at, ended_at) "
-        "SELECT id, 1, '', 'answered', :no, 0, 0, 0 FROM queries"
+        "SELECT id, 1, '', 'answered', :no, 0, 0, 0 FROM queries WHERE run_id = :run"
     )
     answer = (
         "INSERT INTO answers (run_id, query_id, assignment_id, user_id, content, digest, revision, units, seconds, "
-        "created_at) SELECT :run, query_id, id, 1, :content, '', 0, 1000000, 1, 0 FROM assignments"
+        "created_at) SELECT :run, query_id, a.id, 1, :content, '', 0, 1000000, 1, 0 FROM assignments a "
+        "JOIN queries q ON q.id = a.query_id WHERE q.run_id = :run"
     )
     charge = (
-        "INSERT INTO ledger (run_id, query_id, answer_id, entry, kind, episode, units, lo_units, seconds, created_at) "
-        "SELECT :run, query_id, a.id, 'charge', 'label_lo', q.episode, 1000000, 1000000, 1, 0 "
-        "FROM answers a JOIN queries q ON q.id = a.query_id"
+        "INSERT INTO ledger (run_id, query_id, answer_id, entry, kind, episode, units, lo_units, seconds, "
+        "active_seconds, created_at) "
+        "SELECT :run, query_id, a.id, 'charge', 'label_lo', q.episode, 1000000, 1000000, 1, :active, 0 FROM answers a "
+        "JOIN queries q ON q.id = a.query_id WHERE q.run_id = :run"
     )
+    spend = "UPDATE runs SET spent = (SELECT sum(units) FROM ledger WHERE run_id = :run) WHERE id = :run"
 
     def fill(tx: object) -> None:
         asked = query("label_lo", n_actions=20)
@@ -167,8 +170,8 @@ def filled(service: Service, run: str, n_episodes: int, per_episode: int) -> Non
             for o in range(per_episode)
         ]
         tx.conn.execute(text(ask), rows)
-        for statement in (lease, answer, charge):
-            tx.conn.execute(text(statement), {"run": run, "no": False, "content": content})
+        for statement in (lease, answer, charge, spend):
+            tx.conn.execute(text(statement), {"run": run, "no": False, "content": content, "active": active})
 
     service.db.write_now(fill)
 

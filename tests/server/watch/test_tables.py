@@ -2,7 +2,7 @@
 
 import pytest
 from sqlalchemy import text
-from tests.server.kit import Service, query
+from tests.server.kit import Json, Service, query
 from tests.server.runs.test_curves import filled, report, result
 
 
@@ -145,6 +145,43 @@ def test_who_is_at_work_and_on_what(service: Service) -> None:
     bot.answer(held)
     assert of(run) == []
     service.viewer.get("/annotators?run=none", 404)
+
+
+def test_whoever_waits_is_told_what_the_learner_does_and_how_long_that_usually_takes(service: Service) -> None:
+    assert service.annotator.get("/outlook") == {"open": 0, "runs": []}
+    run = service.learner.create_run(name="watched")
+
+    def outlook() -> Json:
+        (found,) = service.annotator.get("/outlook")["runs"]
+        assert (found["run"], found["name"], found["domain"]) == (run, "watched", "maze")
+        return dict(found)
+
+    assert (outlook()["doing"], outlook()["usual_seconds"], outlook()["kinds"]) == ("rolling_out", None, [])
+    asked = service.learner.ask(run, query(), query("label_hi", ordinal=1))
+    assert (outlook()["doing"], outlook()["open"]) == ("asking", 10), "in tens, so that no gold query is noticed"
+    for _ in asked:
+        service.annotator.answer(service.annotator.lease(run=run))
+    assert (outlook()["doing"], outlook()["open"]) == ("training", 0)
+    for one in asked:
+        service.learner.post(f"/queries/{one['id']}/use", expect=200)
+    assert outlook()["doing"] == "training"
+    report(service, run, result(0, True))
+    assert outlook()["doing"] == "rolling_out"
+    service.learner.ask(run, query(episode=1))
+    times = text("SELECT max(created_at) FROM events WHERE event = :event")
+    asked_at, answered_at = (
+        service.db.write_now(lambda tx, event=event: tx.conn.execute(times, {"event": event}).scalar_one())
+        for event in ("asked", "answered")
+    )
+    usual = pytest.approx(asked_at - answered_at)
+    assert (outlook()["doing"], outlook()["usual_seconds"]) == ("asking", usual)
+    assert outlook()["kinds"] == ["inspect_full", "label_hi"]
+    for state in ("paused", "finished"):
+        service.learner.patch(run, state=state)
+        assert (outlook()["doing"], outlook()["usual_seconds"]) == (state, usual)
+    other = service.learner.create_run(name="newer")
+    assert [one["run"] for one in service.annotator.get("/outlook")["runs"]] == [other, run]
+    assert [one["run"] for one in service.annotator.get(f"/outlook?run={run}")["runs"]] == [run, other]
 
 
 def test_a_long_run_is_leafed_through_page_by_page(service: Service) -> None:

@@ -11,6 +11,21 @@ export const KIND_NAMES: Readonly<Record<Kind, string>> = {
   label_full: 'Label_FULL',
 };
 
+/** What annotators read instead: what a query of this kind asks for. */
+export const KIND_WORDS: Readonly<Record<Kind, string>> = {
+  hier_demo: 'Show the whole task',
+  inspect_full: 'Did the whole task work?',
+  label_hi: 'Choose the subgoals',
+  inspect_lo: 'Did this segment work?',
+  label_lo: 'Correct the steps of a segment',
+  label_full: 'Correct every step',
+};
+
+/** Return the names of the kinds: the paper's for those who run the learner, plain words for annotators. */
+export function namesOfKinds(papers: boolean): Readonly<Record<Kind, string>> {
+  return papers ? KIND_NAMES : KIND_WORDS;
+}
+
 /** Return a name as people read it: "go_to_target" becomes "go to target". */
 export function readable(name: string): string {
   return name.replaceAll('_', ' ');

@@ -401,6 +401,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/forecast": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Forecast
+         * @description Forecast how many more units the run needs to reach a success rate.
+         *
+         *     Every role may call it.
+         */
+        get: operations["getForecast"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{run}/query-rows": {
         parameters: {
             query?: never;
@@ -503,6 +525,28 @@ export interface paths {
          *     Every role may call it.
          */
         get: operations["listAtWork"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/outlook": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Outlook
+         * @description Return what the learners do now and when they will ask, for annotators who wait; `run` is the first run.
+         *
+         *     Every role may call it.
+         */
+        get: operations["getOutlook"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1008,6 +1052,118 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/review": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Review
+         * @description List one page of a run's answers to review, newest query first.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         */
+        get: operations["listReview"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run}/agreement": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Agreement
+         * @description Return how far annotators agree on the queries that two of them answered, by kind of query.
+         *
+         *     Needs the role admin or learner or viewer.
+         */
+        get: operations["getAgreement"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/queries/{query}/comments": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Comment
+         * @description Comment on a query. Annotators do not see it.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         */
+        post: operations["comment"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/queries/{query}/send-back": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Send Back
+         * @description Send an answer back that the learner has not used: refund it, and open its query again for every annotator.
+         *
+         *     Whoever gets the query next sees the comment, and the annotator who gave the answer finds it at `GET /me/returned`.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         */
+        post: operations["sendBack"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/me/returned": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * My Returned
+         * @description List the caller's answers that a reviewer sent back, newest first, each with the comment.
+         *
+         *     Every role may call it.
+         */
+        get: operations["myReturned"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/practice": {
         parameters: {
             query?: never;
@@ -1313,6 +1469,65 @@ export interface webhooks {
 }
 export interface components {
     schemas: {
+        /**
+         * Agreement
+         * @description The agreement of the annotators of a run, sent by the server, and what its second answers cost.
+         */
+        Agreement: {
+            /** By Kind */
+            by_kind: components["schemas"]["AgreementOfKind"][];
+            /**
+             * Fewest
+             * @description The number of queries answered twice from which on alpha is given.
+             */
+            fewest: number;
+            /**
+             * Waiting
+             * @description The number of second answers that are still wanted.
+             */
+            waiting: number;
+            /**
+             * Units
+             * @description What the second answers would cost at the run's prices; the run does not pay it.
+             */
+            units: number;
+            /**
+             * Active Seconds
+             * @description The annotators' working time for them without idle time, in seconds.
+             */
+            active_seconds: number;
+        };
+        /**
+         * AgreementOfKind
+         * @description The agreement of first and second answers to one kind of query, sent by the server.
+         */
+        AgreementOfKind: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /**
+             * Queries
+             * @description The number of queries that two annotators answered.
+             */
+            queries: number;
+            /**
+             * Labels
+             * @description The number of pairs of labels in these answers.
+             */
+            labels: number;
+            /**
+             * Share
+             * @description The share of pairs whose labels are the same, 0 to 1; null without pairs.
+             */
+            share: number | null;
+            /**
+             * Alpha
+             * @description Krippendorff's alpha of the labels as names; null with fewer queries than `fewest`, or if all labels are the same.
+             */
+            alpha: number | null;
+        };
         /**
          * AnswerBatch
          * @description Answers that are stored together, sent by a bot. Sending them again returns the same receipts.
@@ -2017,6 +2232,11 @@ export interface components {
             /** @description The price of the answer. */
             price: components["schemas"]["Price"];
             /**
+             * Comments
+             * @description The comments with which reviewers sent earlier answers to this query back, oldest first.
+             */
+            comments: components["schemas"]["Comment"][];
+            /**
              * Leased At
              * @description When the lease began, in seconds since the epoch.
              */
@@ -2264,6 +2484,42 @@ export interface components {
              * @description The id of the newest event of all runs.
              */
             newest: number;
+        };
+        /**
+         * Comment
+         * @description A reviewer's comment on a query, sent by the server.
+         */
+        Comment: {
+            /** Id */
+            id: number;
+            /**
+             * By
+             * @description The name of the reviewer.
+             */
+            by: string;
+            /**
+             * At
+             * @description When it was written, in seconds since the epoch.
+             */
+            at: number;
+            /** Text */
+            text: string;
+            /**
+             * Answer
+             * @description The id of the answer that was sent back with it; null for a mere comment.
+             */
+            answer: number | null;
+        };
+        /**
+         * CommentPost
+         * @description A comment on a query, sent by a reviewer. Comments never change.
+         */
+        CommentPost: {
+            /**
+             * Text
+             * @description The comment; not only spaces.
+             */
+            text: string;
         };
         /**
          * CostOfKind
@@ -2734,6 +2990,69 @@ export interface components {
              * @description Whether all labels are correct.
              */
             is_right: boolean;
+        };
+        /**
+         * Forecast
+         * @description When a run will reach a success rate over 100 test episodes, sent by the server.
+         *
+         *     Exactly one of `reached`, `too_early` and `more_units` is set.
+         */
+        Forecast: {
+            /**
+             * Target
+             * @description The success rate.
+             * @enum {string}
+             */
+            target: "0.8" | "0.9" | "0.95" | "0.99";
+            /** @description When the run reached the target; null if it has not yet. */
+            reached: components["schemas"]["Milestone"] | null;
+            /**
+             * Too Early
+             * @description Why there is no forecast yet, as a sentence; null if there is one.
+             */
+            too_early: string | null;
+            /** @description How many more units the run needs. */
+            more_units: components["schemas"]["ForecastRange"] | null;
+            /** @description The annotators' working time for these units, at the pace of the last answers by people; null if there were none. */
+            more_seconds: components["schemas"]["ForecastRange"] | null;
+            /**
+             * Missed
+             * @description The share of futures in which the run does not reach the target, 0 to 1.
+             */
+            missed: number | null;
+            /**
+             * Same Configuration
+             * @description The number of finished runs used that differ only by their seed.
+             */
+            same_configuration: number;
+            /**
+             * Other Configurations
+             * @description The number of other finished runs used, of the domain and algorithm.
+             */
+            other_configurations: number;
+        };
+        /**
+         * ForecastRange
+         * @description A forecast amount: the median of all possible futures, and the range that holds the middle 80 % of them.
+         *
+         *     Null: so many futures do not reach the target that the amount has no end.
+         */
+        ForecastRange: {
+            /**
+             * Low
+             * @description In a tenth of the futures it is less.
+             */
+            low: number | null;
+            /**
+             * Median
+             * @description In half of the futures it is less.
+             */
+            median: number | null;
+            /**
+             * High
+             * @description In a tenth of the futures it is more.
+             */
+            high: number | null;
         };
         /**
          * Frame
@@ -3418,6 +3737,11 @@ export interface components {
              */
             answers_today: number;
             /**
+             * Active Seconds Today
+             * @description The user's working time for the answers since midnight UTC, without idle time, in seconds.
+             */
+            active_seconds_today: number;
+            /**
              * Median Seconds
              * @description The median working time of the last 1,000 of these answers, without idle time, in seconds.
              */
@@ -3557,6 +3881,22 @@ export interface components {
             agreement: number | null;
         };
         /**
+         * Outlook
+         * @description What an annotator without a query can expect, sent by the server.
+         */
+        Outlook: {
+            /**
+             * Open
+             * @description The number of unanswered queries of all running runs, rounded up to tens; 1,000 for more.
+             */
+            open: number;
+            /**
+             * Runs
+             * @description The newest runs, at most six: running ones first, then paused ones, then finished ones.
+             */
+            runs: components["schemas"]["RunOutlook"][];
+        };
+        /**
          * PastAnswer
          * @description An answer that was given at some time, sent by the server. Answers never change.
          */
@@ -3645,6 +3985,11 @@ export interface components {
             vocabulary: components["schemas"]["Vocabulary"];
             /** Queries */
             queries: components["schemas"]["PracticeQuery"][];
+            /**
+             * Examples
+             * @description The last query of each kind, for the kinds that have several queries.
+             */
+            examples: components["schemas"]["WorkedExample"][];
         };
         /**
          * PracticeAnswer
@@ -3868,13 +4213,18 @@ export interface components {
         };
         /**
          * QueryHistory
-         * @description All assignments and ledger entries of a query, oldest first, and its neighbors; sent by the server.
+         * @description All assignments, ledger entries and comments of a query, oldest first, and its neighbors; sent by the server.
          */
         QueryHistory: {
             /** Assignments */
             assignments: components["schemas"]["PastAssignment"][];
             /** Ledger */
             ledger: components["schemas"]["LedgerEntry"][];
+            /**
+             * Comments
+             * @description What reviewers wrote about the query.
+             */
+            comments: components["schemas"]["Comment"][];
             /**
              * Previous
              * @description The id of the previous query in the run, by episode and ordinal.
@@ -4159,6 +4509,103 @@ export interface components {
             tab?: string | null;
         };
         /**
+         * Returned
+         * @description An answer of the caller that a reviewer has sent back, sent by the server.
+         */
+        Returned: {
+            /**
+             * Query
+             * @description The id of the query.
+             */
+            query: number;
+            /**
+             * Run
+             * @description The id of the run.
+             */
+            run: string;
+            /**
+             * Run Name
+             * @description The name of the run.
+             */
+            run_name: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /**
+             * Episode
+             * @description The number of the episode in the run, from 0.
+             */
+            episode: number;
+            /**
+             * Question
+             * @description The query in words.
+             */
+            question: string;
+            /**
+             * Answer
+             * @description The answer that was sent back.
+             */
+            answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            /**
+             * Answered At
+             * @description When the answer was given, in seconds since the epoch.
+             */
+            answered_at: number;
+            comment: components["schemas"]["Comment"];
+        };
+        /**
+         * ReturnedList
+         * @description The answers of the caller that were sent back, newest first; at most 100.
+         */
+        ReturnedList: {
+            /** Returned */
+            returned: components["schemas"]["Returned"][];
+        };
+        /**
+         * ReviewPage
+         * @description One page of answers under review, newest query first, sent by the server.
+         */
+        ReviewPage: {
+            /** Rows */
+            rows: components["schemas"]["ReviewRow"][];
+            /**
+             * Total
+             * @description The number of answers on all pages.
+             */
+            total: number;
+            /**
+             * Newest
+             * @description The id of the newest query on all pages.
+             */
+            newest: number | null;
+            /**
+             * Oldest
+             * @description The id of the oldest query on all pages.
+             */
+            oldest: number | null;
+        };
+        /**
+         * ReviewRow
+         * @description An answered query under review, sent by the server, with what its answer is compared with.
+         */
+        ReviewRow: {
+            query: components["schemas"]["QueryRow"];
+            /**
+             * Differs
+             * @description Whether the answer differs from the learner's suggestion; null if the query had none.
+             */
+            differs: boolean | null;
+            /**
+             * Gold
+             * @description For an answer to a gold query: its labels beside the correct ones; otherwise null.
+             */
+            gold: components["schemas"]["Mark"][] | null;
+            /** @description The answer of a second annotator; null if there is none. */
+            second: components["schemas"]["SecondAnswer"] | null;
+        };
+        /**
          * Run
          * @description A run and its account, sent by the server. `spent + reserved <= budget` holds at all times.
          */
@@ -4231,6 +4678,12 @@ export interface components {
              */
             gold_rate: number;
             /**
+             * Second Answers
+             * @description The share of the run's queries that a second annotator answers as well, 0 to 1. A demonstration is never answered twice.
+             * @default 0
+             */
+            second_answers: number;
+            /**
              * Result
              * @description The learner's report at the end of the run.
              */
@@ -4278,6 +4731,12 @@ export interface components {
              * @description The planned number of episodes.
              */
             episodes?: number | null;
+            /**
+             * Second Answers
+             * @description The share of the run's queries that a second annotator answers as well, 0 to 1. A demonstration is never answered twice.
+             * @default 0
+             */
+            second_answers: number;
         };
         /**
          * RunList
@@ -4319,6 +4778,53 @@ export interface components {
             state: "running" | "paused" | "finished";
         };
         /**
+         * RunOutlook
+         * @description What the learner of a run does, and when it will ask again; sent by the server.
+         */
+        RunOutlook: {
+            /**
+             * Run
+             * @description The id of the run.
+             */
+            run: string;
+            /**
+             * Name
+             * @description The name of the run.
+             */
+            name: string;
+            /**
+             * Domain
+             * @description The name of the run's domain.
+             */
+            domain: string;
+            /**
+             * Kinds
+             * @description The kinds of query that the learner asked lately.
+             */
+            kinds: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full")[];
+            /**
+             * Doing
+             * @description What the learner does: it waits for answers (`asking`), learns from them (`training`), or acts until it has something to ask (`rolling_out`); or the run is paused or finished.
+             * @enum {string}
+             */
+            doing: "asking" | "training" | "rolling_out" | "paused" | "finished";
+            /**
+             * Seconds
+             * @description How long ago the run changed last, in seconds.
+             */
+            seconds: number;
+            /**
+             * Usual Seconds
+             * @description The median time from the last answer to the next query, over the last 20 times that no query was open, in seconds; null before the first.
+             */
+            usual_seconds: number | null;
+            /**
+             * Open
+             * @description The number of unanswered queries, rounded up to tens; 1,000 for more.
+             */
+            open: number;
+        };
+        /**
          * RunPatch
          * @description Changes of a run. Absent fields do not change; a null budget removes the limit.
          */
@@ -4346,6 +4852,31 @@ export interface components {
             } | null;
             /** Gold Rate */
             gold_rate?: number | null;
+            /** Second Answers */
+            second_answers?: number | null;
+        };
+        /**
+         * SecondAnswer
+         * @description The answer of a second annotator to the same query, sent by the server. The learner never gets it.
+         */
+        SecondAnswer: {
+            /**
+             * Annotator
+             * @description The name of the second annotator.
+             */
+            annotator: string;
+            /** Answer */
+            answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            /**
+             * Units
+             * @description What the answer would cost, in units; the run does not pay it.
+             */
+            units: number;
+            /**
+             * Seconds
+             * @description The time from lease to answer, in seconds.
+             */
+            seconds: number;
         };
         /**
          * Segment
@@ -4398,6 +4929,22 @@ export interface components {
              * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
             frames: string[];
+        };
+        /**
+         * SendBack
+         * @description A request to send an answer back, with the comment that says why; sent by a reviewer.
+         */
+        SendBack: {
+            /**
+             * Text
+             * @description The comment; not only spaces.
+             */
+            text: string;
+            /**
+             * Answer
+             * @description The id of the answer that the reviewer has seen.
+             */
+            answer: number;
         };
         /**
          * Session
@@ -4738,6 +5285,19 @@ export interface components {
              */
             timestamp: string;
             data: components["schemas"]["RunNews"];
+        };
+        /**
+         * WorkedExample
+         * @description A practice query with a correct answer, sent by the server; it is shown before others of its kind are asked.
+         */
+        WorkedExample: {
+            /**
+             * Query
+             * @description The id of the practice query.
+             */
+            query: number;
+            /** @description A correct answer, and the reason for each label. */
+            feedback: components["schemas"]["Feedback"];
         };
         /**
          * PlayMoves
@@ -6611,6 +7171,76 @@ export interface operations {
             };
         };
     };
+    getForecast: {
+        parameters: {
+            query?: {
+                /** @description The success rate over 100 test episodes. */
+                target?: "0.8" | "0.9" | "0.95" | "0.99";
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Forecast"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     listQueryRows: {
         parameters: {
             query?: {
@@ -6941,6 +7571,64 @@ export interface operations {
             };
             /** @description Not found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getOutlook: {
+        parameters: {
+            query?: {
+                run?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Outlook"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -8771,6 +9459,402 @@ export interface operations {
             };
             /** @description Not found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listReview: {
+        parameters: {
+            query?: {
+                kind?: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full") | null;
+                annotator?: string | null;
+                /** @description Only answers that differ from the learner's suggestion or from a second answer, or those to gold queries whose first labels were not all correct. Only the last filter finds answers to gold queries. */
+                disagrees?: ("suggestion" | "gold" | "second") | null;
+                /** @description Only rows older than this one. */
+                before?: number | null;
+                /** @description The oldest rows that are newer than this one. */
+                after?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReviewPage"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getAgreement: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Agreement"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    comment: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                query: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CommentPost"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comment"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    sendBack: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                query: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SendBack"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comment"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The run's budget is exhausted */
+            402: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description This answer stays as it is; The answer was taken back; The learner has used the answer; The run is finished */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    myReturned: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReturnedList"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
                 headers: {
                     [name: string]: unknown;
                 };

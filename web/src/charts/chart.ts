@@ -23,6 +23,13 @@ export interface Series {
   readonly steps?: boolean; // each value holds until the next
 }
 
+/** A value that a curve is on its way to, and where on the x axis it is expected. */
+export interface Goal {
+  readonly y: number;
+  readonly label: string;
+  readonly span: Readonly<{ from: number; to: number; middle: number | null; label: string }> | null;
+}
+
 const DASHES = ['', '7 4', '2 3', '10 3 2 3', '5 2', '12 4', '1 4', '8 3 2 3 2 3'];
 const MARKERS: readonly Marker[] = ['circle', 'square', 'triangle', 'diamond', 'flag', 'cross'];
 
@@ -57,9 +64,12 @@ export function ticks(low: number, high: number, count: number, whole = false): 
   return about(finer ?? count);
 }
 
-/** Return the ranges of the axes: x from the smallest to the largest of all series, y from 0 to the largest. */
-export function extent(series: readonly Series[]): { x: [number, number]; y: number } {
-  let [low, high, top] = [Infinity, -Infinity, 0];
+/** Return the ranges of the axes: x from the smallest to the largest of all series and of the goal, y from 0 to the largest. */
+export function extent(
+  series: readonly Series[],
+  goal: Goal | null = null,
+): { x: [number, number]; y: number } {
+  let [low, high, top] = [Infinity, goal?.span?.to ?? -Infinity, 0];
   for (const one of series) {
     low = Math.min(low, one.x[0] ?? Infinity);
     high = Math.max(high, one.x.at(-1) ?? -Infinity);

@@ -47,6 +47,7 @@ const PRINTED: Readonly<Record<string, string>> = {
   ' ': 'Space',
   Backspace: '⌫',
   Enter: '↵',
+  Escape: 'Esc',
 };
 
 /** Return how a key is printed on a button. */
@@ -54,6 +55,14 @@ export function printed(key: string): string {
   if (key.startsWith('Ctrl+')) return `Ctrl ${printed(key.slice(5))}`;
   if (key.startsWith('Shift+')) return `⇧ ${printed(key.slice(6))}`;
   return PRINTED[key] ?? (key.length === 1 ? key.toUpperCase() : key);
+}
+
+/** Return a key as `aria-keyshortcuts` names it: P, Shift+Enter, Control+Z, Space. */
+export function spoken(key: string): string {
+  if (key.startsWith('Ctrl+')) return `Control+${spoken(key.slice(5))}`;
+  if (key.startsWith('Shift+')) return `Shift+${spoken(key.slice(6))}`;
+  if (key === ' ') return 'Space';
+  return key.length === 1 ? key.toUpperCase() : key;
 }
 
 export function bindingOf(bindings: readonly Binding[], command: Command): Binding | undefined {

@@ -5,6 +5,7 @@ import { ANSWERABLE, type Vocabulary } from '../api/types';
 /** What a key can do. `choose:2` labels with the vocabulary's third subgoal or action; `act:2` steps with its third action. */
 export type Command =
   | 'help'
+  | 'find'
   | 'pass'
   | 'fail'
   | 'accept'
@@ -31,6 +32,11 @@ export type Command =
   | 'reached'
   | 'send'
   | 'start-over'
+  | 'leave'
+  | 'next-answer'
+  | 'previous-answer'
+  | 'comment'
+  | 'send-back'
   | `choose:${number}`
   | `act:${number}`;
 
@@ -41,17 +47,26 @@ export interface Binding {
   readonly group: Group;
   readonly once?: true; // ignored while the key repeats
 }
-type Group = 'Answer' | 'Player' | 'Task' | 'General';
+type Group = 'Answer' | 'Review' | 'Player' | 'Task' | 'General';
 
 /** Every mode: what is on the screen, which decides what the keys do. */
-export const MODES = [...ANSWERABLE, 'hier_demo', 'flat_demo', 'waiting', 'feedback', 'between'] as const;
+export const MODES = [
+  ...ANSWERABLE,
+  'hier_demo',
+  'flat_demo',
+  'waiting',
+  'feedback',
+  'example',
+  'between',
+  'review',
+] as const;
 export type Mode = (typeof MODES)[number];
 
 /** Return the bindings of a mode. If a subgoal or an action has the key of another command, that command loses the key. */
 export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[] {
   const choices = vocabulary === null ? [] : choiceBindings(mode, vocabulary);
   const taken = new Set(choices.flatMap((binding) => binding.keys));
-  const rest = [...answerBindings(mode), ...taskBindings(mode), HELP];
+  const rest = [...answerBindings(mode), ...taskBindings(mode), ...COMMON_BINDINGS];
   const free = rest.map((binding) => ({
     ...binding,
     keys: binding.keys.filter((key) => !taken.has(key)),
@@ -60,8 +75,9 @@ export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[
 }
 
 function taskBindings(mode: Mode): readonly Binding[] {
-  if (mode === 'feedback' || mode === 'between') return [];
+  if (mode === 'feedback' || mode === 'example' || mode === 'between') return [];
   if (mode === 'waiting') return [UNDO];
+  if (mode === 'review') return PLAYER;
   return mode === 'hier_demo' || mode === 'flat_demo' ? TASK : [...TASK, ...PLAYER];
 }
 
@@ -72,8 +88,15 @@ export function collisions(bindings: readonly Binding[]): string[] {
 }
 
 const HELP: Binding = { command: 'help', keys: ['?'], label: 'Show every key', group: 'General', once: true };
+const FIND: Binding = {
+  command: 'find',
+  keys: ['Ctrl+k'],
+  label: 'Find a view, a run or a command',
+  group: 'General',
+  once: true,
+};
 /** The bindings of every view. */
-export const COMMON_BINDINGS: readonly Binding[] = [HELP];
+export const COMMON_BINDINGS: readonly Binding[] = [HELP, FIND];
 
 const UNDO: Binding = {
   command: 'undo',
@@ -102,21 +125,48 @@ const PLAYER: readonly Binding[] = [
   { command: 'faster', keys: ['=', '+'], label: 'Faster', group: 'Player' },
 ];
 
+/** The binding that leaves the first practice, whatever it shows. */
+export const LEAVE: Binding = {
+  command: 'leave',
+  keys: ['Escape'],
+  label: 'Skip the practice',
+  group: 'General',
+  once: true,
+};
+
 /** The bindings of a view where a trajectory is only watched. */
-export const WATCH_BINDINGS: readonly Binding[] = [...PLAYER, HELP];
+export const WATCH_BINDINGS: readonly Binding[] = [...PLAYER, ...COMMON_BINDINGS];
+
+const REVIEW: readonly Binding[] = [
+  { command: 'next-answer', keys: ['j', 'ArrowDown'], label: 'Next answer, an older one', group: 'Review' },
+  {
+    command: 'previous-answer',
+    keys: ['k', 'ArrowUp'],
+    label: 'Previous answer, a newer one',
+    group: 'Review',
+  },
+  { command: 'comment', keys: ['c'], label: 'Write a comment', group: 'Review', once: true },
+  {
+    command: 'send-back',
+    keys: ['b'],
+    label: 'Send the answer back with the comment',
+    group: 'Review',
+    once: true,
+  },
+];
 
 const ACCEPT: readonly Binding[] = [
   {
     command: 'accept',
     keys: ['Enter'],
-    label: "Keep the learner's choice; when nothing is left, submit",
+    label: "Keep the learner's choice; when nothing is left, send the answer",
     group: 'Answer',
     once: true,
   },
   {
     command: 'accept-rest',
     keys: ['Shift+Enter'],
-    label: 'Keep all remaining choices of the learner and submit',
+    label: 'Keep all remaining choices of the learner and send the answer',
     group: 'Answer',
     once: true,
   },
@@ -135,13 +185,19 @@ const DEMO: readonly Binding[] = [
   },
 ];
 
+/** Look at the labels of an answer, one by one. */
+const LOOK: readonly Binding[] = [
+  { command: 'previous-segment', keys: ['ArrowUp'], label: 'Previous label', group: 'Answer' },
+  { command: 'next-segment', keys: ['ArrowDown'], label: 'Next label', group: 'Answer' },
+];
+
 function answerBindings(mode: Mode): readonly Binding[] {
   switch (mode) {
     case 'inspect_full':
     case 'inspect_lo':
       return [
-        { command: 'pass', keys: ['p'], label: 'Pass', group: 'Answer', once: true },
-        { command: 'fail', keys: ['f'], label: 'Fail', group: 'Answer', once: true },
+        { command: 'pass', keys: ['y', 'p'], label: 'Yes, it worked', group: 'Answer', once: true },
+        { command: 'fail', keys: ['n', 'f'], label: 'No, it failed', group: 'Answer', once: true },
       ];
     case 'label_hi':
       return [
@@ -202,11 +258,17 @@ function answerBindings(mode: Mode): readonly Binding[] {
       return [];
     case 'feedback':
       return [
-        { command: 'accept', keys: ['Enter'], label: 'Next query', group: 'Answer', once: true },
-        { command: 'undo', keys: ['u'], label: 'Answer this query again', group: 'Answer', once: true },
-        { command: 'previous-segment', keys: ['ArrowUp'], label: 'Previous label', group: 'Answer' },
-        { command: 'next-segment', keys: ['ArrowDown'], label: 'Next label', group: 'Answer' },
+        { command: 'accept', keys: ['Enter'], label: 'Next question', group: 'Answer', once: true },
+        { command: 'undo', keys: ['u'], label: 'Answer this question again', group: 'Answer', once: true },
+        ...LOOK,
       ];
+    case 'example':
+      return [
+        { command: 'accept', keys: ['Enter'], label: 'Now try one yourself', group: 'Answer', once: true },
+        ...LOOK,
+      ];
+    case 'review':
+      return REVIEW;
     case 'between':
       return [{ command: 'accept', keys: ['Enter'], label: 'Start practicing', group: 'Answer', once: true }];
   }
@@ -256,7 +318,7 @@ function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
  */
 function namesToKeys(vocabulary: Vocabulary): Record<'subgoals' | 'actions', (string | undefined)[]> {
   const usedIn = (modes: readonly Mode[]): Set<string> =>
-    new Set([...modes.flatMap(answerBindings), UNDO, HELP].flatMap((binding) => binding.keys));
+    new Set([...modes.flatMap(answerBindings), UNDO, ...COMMON_BINDINGS].flatMap((binding) => binding.keys));
   const reserved = usedIn(OF_SUBGOALS);
   const initials = vocabulary.subgoals.map((name) => initial(name).toLowerCase());
   const subgoals = initials.map((letter) => {

@@ -2,7 +2,7 @@
 import type { Role } from '../api/types';
 
 export const ROLES: readonly { readonly role: Role; readonly may: string }[] = [
-  { role: 'annotator', may: 'Answers queries; sees runs, curves and costs, but no single queries.' },
+  { role: 'annotator', may: 'Answers questions; sees runs and their curves, but no single queries.' },
   { role: 'viewer', may: 'Sees everything except people, and changes nothing.' },
   {
     role: 'learner',

@@ -14,7 +14,7 @@ export function frameOf(ask: Answerable, tape: Tape, mark: Mark): number {
 
 /** Return what a label is about: "Segment 2", "State 5". */
 export function placeOf(ask: Answerable, mark: Mark): string {
-  if (ask.kind === 'inspect_full' || ask.kind === 'inspect_lo') return 'Verdict';
+  if (ask.kind === 'inspect_full' || ask.kind === 'inspect_lo') return 'Answer';
   return `${ask.kind === 'label_hi' ? 'Segment' : 'State'} ${mark.place + 1}`;
 }
 
@@ -23,6 +23,8 @@ export function labelWords(label: string | null): string {
   if (label === null) return 'nothing';
   if (label === '(done)') return 'done here';
   if (label === '(not done)') return 'not done';
+  if (label === 'pass') return 'yes, it worked';
+  if (label === 'fail') return 'no, it failed';
   return readable(label);
 }
 

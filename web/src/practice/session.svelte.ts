@@ -1,12 +1,19 @@
 // A practice session: one query after the other, each with feedback. Nothing is stored.
 import { api, unwrap, wordsOf } from '../api/client';
-import type { Answer, Answerable, Feedback, Practice, Vocabulary } from '../api/types';
+import type { Answer, Answerable, AnswerableKind, Feedback, Practice, Vocabulary } from '../api/types';
+import { firstQueries } from './first';
 
-export type Phase = 'loading' | 'intro' | 'question' | 'feedback' | 'done' | 'failed';
+/** `useless`: the first practice has nothing that the person will be asked. */
+export type Phase = 'loading' | 'intro' | 'example' | 'question' | 'feedback' | 'done' | 'failed' | 'useless';
 
 interface PracticeQuery {
   readonly id: number;
   readonly ask: Answerable;
+}
+
+interface WorkedExample {
+  readonly ask: Answerable;
+  readonly feedback: Feedback;
 }
 
 export class PracticeSession {
@@ -16,18 +23,32 @@ export class PracticeSession {
   feedback: Feedback | null = $state.raw(null);
   problem: string | null = $state(null);
   results: readonly boolean[] = $state.raw([]); // by place, of this round
+  example: WorkedExample | null = $state.raw(null); // of the phase `example`
   #practice: Practice | null = $state.raw(null);
+  readonly #isFirst: boolean;
+  #examples: readonly WorkedExample[] = []; // those that were not shown yet
 
   readonly total = $derived(this.#queries().length);
   readonly right = $derived(this.results.filter(Boolean).length);
   readonly query: PracticeQuery | null = $derived(this.#queries()[this.place] ?? null);
   readonly vocabulary: Vocabulary | null = $derived(this.#practice?.vocabulary ?? null);
 
+  /** A session of all practice queries, or the first one of a person, with worked examples. */
+  constructor(isFirst: boolean) {
+    this.#isFirst = isFirst;
+  }
+
   async load(): Promise<void> {
     this.phase = 'loading';
     try {
-      this.#practice = await unwrap(api.GET('/api/v1/practice'));
-      this.phase = 'intro';
+      const practice = await unwrap(api.GET('/api/v1/practice'));
+      this.#examples = this.#isFirst ? workedExamples(practice) : [];
+      const outlook = this.#isFirst ? await unwrap(api.GET('/api/v1/outlook')) : null;
+      const queries = outlook === null ? practice.queries : firstQueries(practice, outlook);
+      this.#practice = { ...practice, queries };
+      if (!this.#isFirst) this.phase = 'intro';
+      else if (this.total === 0) this.phase = 'useless';
+      else this.start();
     } catch (error) {
       this.problem = wordsOf(error);
       this.phase = 'failed';
@@ -38,6 +59,12 @@ export class PracticeSession {
   start(): void {
     this.results = [];
     this.#show(0);
+  }
+
+  /** After a worked example, ask the question. */
+  begin(): void {
+    this.example = null;
+    this.phase = 'question';
   }
 
   async submit(answer: Answer): Promise<void> {
@@ -74,7 +101,15 @@ export class PracticeSession {
     this.shown += 1;
     this.feedback = null;
     this.problem = null;
-    this.phase = 'question';
+    this.example = this.#exampleFor(this.query?.ask.kind);
+    this.phase = this.example === null ? 'question' : 'example';
+  }
+
+  /** Return the worked example of a kind, if this is the first practice and its first question of the kind. */
+  #exampleFor(kind: AnswerableKind | undefined): WorkedExample | null {
+    const found = this.#examples.find(({ ask }) => ask.kind === kind) ?? null;
+    this.#examples = this.#examples.filter((example) => example !== found);
+    return found;
   }
 
   /** Return the queries of the practice file except demonstrations, which need a learner's environment. */
@@ -82,4 +117,11 @@ export class PracticeSession {
     const queries = this.#practice?.queries ?? [];
     return queries.flatMap(({ id, ask }) => (ask.kind === 'hier_demo' ? [] : [{ id, ask }]));
   }
+}
+
+function workedExamples(practice: Practice): WorkedExample[] {
+  return practice.examples.flatMap(({ query, feedback }) => {
+    const ask = practice.queries.find(({ id }) => id === query)?.ask;
+    return ask === undefined || ask.kind === 'hier_demo' ? [] : [{ ask, feedback }];
+  });
 }

@@ -24,10 +24,10 @@ export function stepOf(name: string): Step | null {
 
 /** What the marks of a renderer's own picture mean. */
 const LEGENDS: Readonly<Record<string, string>> = {
-  maze: 'On the map, the ring is the target and the dot is the agent. A number with a letter marks the state where a subgoal was chosen. Segments that the query does not ask about are faint. A bar with two posts is a door. Click the path to go there. In Label_HI, click a door or the target to choose the subgoal of the segment. In labels, drag along the right way to label all states or segments on it.',
+  maze: 'On the map, the ring is the target and the dot is the agent. A number with a letter marks the state where a subgoal was chosen. Segments that the question is not about are faint. A bar with two posts is a door. Click the path to go there. Where subgoals are asked for, click a door or the target to choose one for the segment. Where labels are asked for, drag along the right way to label all states or segments on it.',
 };
 const LEGEND_OF_PICTURES =
-  'Under the picture are the states where a subgoal was chosen. Click one to go there. Segments that the query does not ask about are dashed.';
+  'Under the picture are the states where a subgoal was chosen. Click one to go there. Segments that the question is not about are dashed.';
 
 /** Return what the marks on a domain's pictures mean. */
 export function legendOf(name: string): string {

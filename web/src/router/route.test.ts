@@ -25,7 +25,12 @@ it.each([
   ['/people/audit/1', '', { view: 'nowhere' }],
   ['/people/0x1', '', { view: 'nowhere' }],
   ['/me', '', { view: 'me' }],
-  ['/practice', '', { view: 'practice' }],
+  ['/practice', '', { view: 'practice', first: false, work: '/work' }],
+  [
+    '/practice',
+    '?first=yes&without=label_lo',
+    { view: 'practice', first: true, work: '/work?without=label_lo' },
+  ],
   ['/else', '', { view: 'nowhere' }],
 ])('%s%s leads somewhere', (path, search, route) => {
   expect(parseRoute(path, search)).toEqual(route);

@@ -5,7 +5,8 @@ export type Route =
   | WorkRoute
   | RunsRoute
   | { readonly view: 'gold'; readonly run: string }
-  | { readonly view: 'practice' | 'people' | 'audit' | 'me' }
+  | { readonly view: 'people' | 'audit' | 'me' }
+  | PracticeRoute
   | { readonly view: 'person'; readonly user: number }
   | { readonly view: 'nowhere' };
 
@@ -16,6 +17,13 @@ export interface WorkRoute {
   readonly without: string | null;
 }
 
+/** Practice. The first one of a person is short, and leads to a work view. */
+export interface PracticeRoute {
+  readonly view: 'practice';
+  readonly first: boolean;
+  readonly work: string; // the address of that work view
+}
+
 export type RunsRoute =
   | { readonly view: 'runs' }
   | { readonly view: 'compare' }
@@ -23,7 +31,7 @@ export type RunsRoute =
   | { readonly view: 'query'; readonly run: string; readonly query: number };
 
 /** The parts of the view of a run. */
-export type Section = 'overview' | 'queries' | 'ledger';
+export type Section = 'overview' | 'queries' | 'review' | 'ledger';
 
 export function parseRoute(path: string, search: string): Route {
   const [first = '', second = '', ...rest] = path.split('/').filter(Boolean);
@@ -34,7 +42,8 @@ export function parseRoute(path: string, search: string): Route {
   if (first === 'people' && /^[1-9]\d{0,14}$/.test(second)) return { view: 'person', user: Number(second) };
   if (first === 'people' && second === 'audit') return { view: 'audit' };
   if (second !== '') return { view: 'nowhere' };
-  if (first === 'practice' || first === 'people' || first === 'me') return { view: first };
+  if (first === 'people' || first === 'me') return { view: first };
+  if (first === 'practice') return practiceRoute(search);
   if (first === 'login') return { view: 'login' };
   if (first === 'work' || first === '') {
     const parameters = new URLSearchParams(search);
@@ -43,13 +52,20 @@ export function parseRoute(path: string, search: string): Route {
   return { view: 'nowhere' };
 }
 
+function practiceRoute(search: string): PracticeRoute {
+  const isFirst = new URLSearchParams(search).has('first');
+  return { view: 'practice', first: isFirst, work: `/work${searchWith(search, { first: null })}` };
+}
+
 function runsRoute(run: string, section = '', query = '', ...more: string[]): RunsRoute | null {
   if (more.length > 0) return null;
   if (run === '') return { view: 'runs' };
   if (section === '')
     return run === 'compare' ? { view: run } : { view: 'run', run: decoded(run), section: 'overview' };
   if (query === '')
-    return section === 'queries' || section === 'ledger' ? { view: 'run', run: decoded(run), section } : null;
+    return section === 'queries' || section === 'review' || section === 'ledger'
+      ? { view: 'run', run: decoded(run), section }
+      : null;
   if (section !== 'queries' || !/^[1-9]\d{0,14}$/.test(query)) return null;
   return { view: 'query', run: decoded(run), query: Number(query) };
 }

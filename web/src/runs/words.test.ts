@@ -2,7 +2,8 @@
 import { flushSync, mount, unmount } from 'svelte';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { api } from '../api/client';
-import type { Costs, Run, RunList as Runs } from '../api/types';
+import type { Costs, Me, Run, RunList as Runs } from '../api/types';
+import { shell } from '../ui/shell.svelte';
 import LiveMark from './LiveMark.svelte';
 import RunList from './RunList.svelte';
 import Tiles from './Tiles.svelte';
@@ -25,6 +26,7 @@ describe('one thing is not counted as many', () => {
   });
   afterEach(async () => {
     if (shown) await unmount(shown);
+    shell.me = null;
     vi.restoreAllMocks();
   });
 
@@ -41,10 +43,36 @@ describe('one thing is not counted as many', () => {
     } as unknown as Costs;
     shown = mount(Tiles, { target: document.body, props: { run: { ...RUN, budget: 1 }, costs } });
     flushSync();
+    expect(text()).not.toContain('unit'); // an annotator does not pay
+    shell.me = { role: 'viewer' } as unknown as Me;
+    flushSync();
     for (const words of ['of 1 unit', '1 unit reserved', '1 unit on LO labels', '1 unit ep. 3']) {
       expect(text()).toContain(words);
     }
     expect(text()).not.toContain('1 units');
+  });
+});
+
+describe('a server without runs', () => {
+  let shown: Record<string, unknown> | undefined;
+  afterEach(async () => {
+    if (shown) await unmount(shown);
+    shell.me = null;
+    vi.restoreAllMocks();
+  });
+
+  it.each([
+    ['admin', true],
+    ['learner', true],
+    ['annotator', false],
+    ['viewer', false],
+  ] as const)('says which command starts one to those who may run it (%s: %s)', async (role, may) => {
+    const found: Runs = { runs: [], total: 0 };
+    vi.spyOn(api, 'GET').mockResolvedValue({ data: found, response: new Response() } as never);
+    shell.me = { role } as unknown as Me;
+    shown = mount(RunList, { target: document.body });
+    await vi.waitFor(() => expect(document.querySelector('h1')?.textContent).toBe('No runs yet'));
+    expect(document.body.textContent.includes('waypost train')).toBe(may);
   });
 });
 

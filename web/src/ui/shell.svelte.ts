@@ -13,6 +13,7 @@ class Shell {
   me: Me | null = $state.raw(null);
   vocabulary: Vocabulary | null = $state.raw(null); // of the query on the screen
   helpOpen = $state(false);
+  findOpen = $state(false);
   #run: ((command: Command) => void) | null = null;
 
   /** Load the signed-in user, unless it is known. */
@@ -49,11 +50,20 @@ class Shell {
 
   run(command: Command): void {
     if (command === 'help') this.helpOpen = true;
+    else if (command === 'find') this.findOpen = true;
     else this.#run?.(command);
   }
 }
 
 export const shell = new Shell();
+
+/**
+ * Return whether a user reads prices, budgets and the paper's names of the queries. They are for the people who run the
+ * learner and pay for it; annotators read plain words and their own session.
+ */
+export function readsPrices(me: Me | null): boolean {
+  return me !== null && me.role !== 'annotator';
+}
 
 /** Return whether a user may see single queries. Annotators may not: they could tell gold queries from others. */
 export function maySeeQueries(me: Me | null): boolean {

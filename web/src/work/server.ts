@@ -1,6 +1,6 @@
 // The requests of the work view, except answers: lease a query, renew and release the lease, take an answer back.
 import { api, unwrap } from '../api/client';
-import type { Assignment, Kind, LeaseRequest, Me } from '../api/types';
+import type { Assignment, Kind, LeaseRequest, Me, Outlook } from '../api/types';
 
 /** Which queries this tab asks for. */
 export interface Wanted {
@@ -22,6 +22,8 @@ export interface WorkServer {
   leave(tab: string, keep: number[]): Promise<unknown>;
   retract(lease: LeaseProof, tab: string): Promise<Assignment>;
   me(): Promise<Me>;
+  /** Say what the learners do, and how many questions are open. */
+  outlook(run: string | null): Promise<Outlook>;
 }
 
 /** Return a request for the next query; `wait` is in seconds. */
@@ -56,4 +58,5 @@ export const restServer: WorkServer = {
     return unwrap(api.POST('/api/v1/assignments/{assignment}/retract', { params: path(lease), body }));
   },
   me: () => unwrap(api.GET('/api/v1/me')),
+  outlook: (run) => unwrap(api.GET('/api/v1/outlook', { params: { query: run === null ? {} : { run } } })),
 };

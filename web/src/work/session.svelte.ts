@@ -3,7 +3,7 @@ import type { AnswerSender } from './answers/sender';
 import type { PendingAnswer } from './answers/outbox';
 import { isAborted, Refused, Unreachable, wordsOf } from '../api/client';
 import { delay, pause, visible } from '../api/retry';
-import type { Answer, Assignment, Me } from '../api/types';
+import type { Answer, Assignment, Me, Outlook, Receipt } from '../api/types';
 import type { Notice } from '../task/notice';
 import { beat, NO_HEARTBEAT, type Heartbeat } from './heartbeat';
 import { leaseRequest, proofOf, type LeaseProof, type Wanted, type WorkServer } from './server';
@@ -17,6 +17,7 @@ const UNDO_DEPTH = 10;
 /** How many queries are leased besides the one on the screen, so that the next one appears at once. */
 const MOST_AHEAD = 2;
 const ME_EVERY_MS = 5_000;
+const OUTLOOK_EVERY_MS = 15_000;
 
 /** A query that was leased ahead and is not on the screen yet. */
 interface LeasedAhead {
@@ -34,6 +35,7 @@ export class WorkSession {
   shown = $state(0); // how many queries have been put on the screen
   notice: Notice | null = $state.raw(null);
   me: Me | null = $state.raw(null);
+  outlook: Outlook | null = $state.raw(null);
 
   readonly #server: WorkServer;
   readonly #sender: AnswerSender;
@@ -52,6 +54,7 @@ export class WorkSession {
   #stopped = false;
   #stored = 0; // the number of answers stored since the view was opened
   #meAt = 0;
+  #outlookAt = -Infinity;
 
   constructor(
     server: WorkServer,
@@ -66,7 +69,7 @@ export class WorkSession {
     this.#active = active;
     this.#prepare = prepare;
     this.#stopListening = sender.listen({
-      stored: () => this.#count(),
+      stored: (receipt) => this.#count(receipt),
       refused: (reason) => this.#refused(reason),
     });
   }
@@ -111,11 +114,13 @@ export class WorkSession {
     this.phase = 'sending';
     try {
       await this.#server.release(proofOf(skipped), reason, true);
-      this.notice = { tone: 'info', text: 'Skipped. It will not be offered to you again.' };
+      this.notice = { tone: 'info', text: 'Skipped. You will not be asked it again.' };
     } catch (error) {
       if (error instanceof Unreachable) {
         this.phase = 'task';
-        this.#warn('The server cannot be reached, so the query is not skipped yet. Try again in a moment.');
+        this.#warn(
+          'The server cannot be reached, so the question is not skipped yet. Try again in a moment.',
+        );
         return;
       }
     }
@@ -253,6 +258,7 @@ export class WorkSession {
         [attempts, wait] = [0, POLL_SECONDS];
         this.phase = 'waiting';
         void this.#refreshMe(); // it says who holds queries
+        void this.#refreshOutlook();
       } catch (error) {
         if (isAborted(error)) return;
         if (error instanceof Refused) {
@@ -278,15 +284,14 @@ export class WorkSession {
       () => this.lose(),
     );
     void this.#lookAhead();
+    if (performance.now() - this.#outlookAt > OUTLOOK_EVERY_MS) void this.#refreshOutlook();
   }
 
   /** The lease is lost: tell the annotator and show the next query. */
   lose(): void {
     if (this.phase !== 'task') return;
     this.#forget();
-    this.#warn(
-      'Your lease on that query expired, so it went back to the queue. Nothing was charged. The next query is here.',
-    );
+    this.#warn('You were away for a while, so that question went back to the queue. The next one is here.');
     this.#goOn();
     this.#heartbeat.now(); // the leases ahead may be lost too
   }
@@ -324,10 +329,15 @@ export class WorkSession {
     this.phase = 'loading';
   }
 
-  #count(): void {
+  #count(receipt: Receipt): void {
     this.#stored += 1;
     if (this.me)
-      this.me = { ...this.me, answers: this.me.answers + 1, answers_today: this.me.answers_today + 1 };
+      this.me = {
+        ...this.me,
+        answers: this.me.answers + 1,
+        answers_today: this.me.answers_today + 1,
+        active_seconds_today: this.me.active_seconds_today + receipt.active_seconds,
+      };
     if (performance.now() - this.#meAt > ME_EVERY_MS) void this.#refreshMe();
   }
 
@@ -340,6 +350,15 @@ export class WorkSession {
       else void this.#refreshMe(); // an answer was stored meanwhile; these numbers may not count it
     } catch {
       // The numbers in the footer stay as they were.
+    }
+  }
+
+  async #refreshOutlook(): Promise<void> {
+    this.#outlookAt = performance.now();
+    try {
+      this.outlook = await this.#server.outlook(this.#wanted.run);
+    } catch {
+      // The words stay as they were.
     }
   }
 
@@ -360,7 +379,7 @@ const UNDO_REFUSED: Readonly<Record<string, string>> = {
 
 function refusalWords(reason: Refused): string {
   if (reason.name === 'lease-expired') {
-    return 'That answer came after your lease had expired. It is kept, but it does not count and costs nothing.';
+    return 'That answer came too late: the question had gone back to the queue. It is kept, but it does not count.';
   }
   return `The server did not accept that answer: ${reason.message}`;
 }

@@ -47,6 +47,8 @@ class FakeServer implements WorkServer {
 
   readonly leave = vi.fn<WorkServer['leave']>(() => Promise.resolve());
 
+  readonly outlook = vi.fn<WorkServer['outlook']>(() => Promise.reject(new Unreachable()));
+
   readonly me = vi.fn<WorkServer['me']>(() => Promise.reject(new Unreachable()));
 }
 

@@ -14,6 +14,7 @@ from waypost_server.db import canonical
 from waypost_server.db.tables import answers, assignments, queries
 from waypost_server.db.transaction import Tx
 from waypost_server.errors import Location, Unprocessable
+from waypost_server.gold import scoring
 from waypost_server.queries import checks, frames
 from waypost_server.queries.service import Content
 
@@ -26,7 +27,7 @@ _INSERT_ANSWER = insert(answers).returning(answers.c.id, sort_by_parameter_order
 _ANSWERED = (
     update(queries)
     .where(queries.c.id == bindparam("query"))
-    .values(state="answered", answer_id=bindparam("answer"), used=bindparam("is_used"))
+    .values(state="answered", answer_id=bindparam("answer"), used=bindparam("is_used"), differs=bindparam("unlike"))
 )
 
 
@@ -67,12 +68,17 @@ def insert_queries(tx: Tx, target: Target, records: Sequence[wire.QueryRecord]) 
     numbers = tx.conn.execute(_INSERT_ANSWER, given).scalars().all()
     last = dict(zip((row["query_id"] for row in given), numbers, strict=True))  # the answer that counts is the last
     counting = [
-        {"query": query, "answer": last[query], "is_used": record.used}
+        {"query": query, "answer": last[query], "is_used": record.used, "unlike": _differs(record)}
         for query, record in zip(ids, records, strict=True)
         if record.answered is not None
     ]
     if counting:
         tx.conn.execute(_ANSWERED, counting)
+
+
+def _differs(record: wire.QueryRecord) -> bool | None:
+    answer = None if record.answered is None else record.answered.answer
+    return None if answer is None else scoring.differ(record.ask.suggestion, answer.content)
 
 
 def _history(record: wire.QueryRecord) -> list[wire.AssignmentRecord]:

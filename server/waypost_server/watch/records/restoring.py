@@ -94,6 +94,7 @@ def _create(tx: Tx, run: wire.Run, owner: int, find_annotator: FindAnnotator) ->
             created_at=run.created_at,
             finished_at=run.finished_at,
             gold_rate=run.gold_rate,
+            second_answers=run.second_answers,
         )
     )
     return Target(run, checks.Names.of(run.vocabulary), find_annotator)

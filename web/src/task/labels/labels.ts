@@ -63,6 +63,6 @@ export const EDITS: Partial<Record<Command, (labels: Labels) => Labels>> = {
 export const HINTS: Partial<Record<Command | 'choose' | 'draw', string>> = {
   accept: 'There is nothing to keep: the learner made no choice here.',
   'not-done': '“Not done” is for the last state only. At other states, choose an action.',
-  draw: 'This way passes nothing that the query asks about. Draw along the learner’s path, and leave it where it is wrong.',
+  draw: 'This way passes nothing that the question is about. Draw along the learner’s path, and leave it where it is wrong.',
   choose: 'The last state needs no action. Choose “Done here” or “Not done”.',
 };

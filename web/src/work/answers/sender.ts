@@ -9,7 +9,7 @@ import type { Outbox, PendingAnswer } from './outbox';
 export type SendAnswer = (pending: PendingAnswer, next: LeaseRequest | null) => Promise<Receipt>;
 
 export interface AnswerListener {
-  stored(): void;
+  stored(receipt: Receipt): void;
   refused(reason: Refused): void;
 }
 const NOBODY: AnswerListener = { stored: () => undefined, refused: () => undefined };
@@ -79,7 +79,7 @@ export class AnswerSender {
     try {
       const receipt = await this.#send(pending, next);
       this.#set(outboxes.without(this.#outbox, pending.assignment));
-      this.#listener.stored();
+      this.#listener.stored(receipt);
       return receipt;
     } catch (error) {
       if (error instanceof Refused && error.status !== 401) {

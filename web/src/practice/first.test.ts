@@ -1,0 +1,38 @@
+// @vitest-environment happy-dom
+import { beforeEach, expect, test } from 'vitest';
+import type { Kind, Me, Outlook, Practice } from '../api/types';
+import { firstQueries, isNew, remember } from './first';
+
+const me = (more: Partial<Me>): Me => ({ id: 7, role: 'annotator', answers: 0, ...more }) as Me;
+const kinds: Kind[] = ['inspect_full', 'inspect_full', 'label_hi', 'label_hi', 'label_lo'];
+const practice = {
+  vocabulary: { domain: 'maze' },
+  queries: kinds.map((kind, id) => ({ id, ask: { kind } })),
+  examples: [{ query: 1 }, { query: 3 }],
+} as unknown as Practice;
+const outlook = (...runs: object[]): Outlook => ({ open: 0, runs }) as unknown as Outlook;
+const ids = (found: Practice['queries']): number[] => found.map(({ id }) => id);
+
+beforeEach(() => localStorage.clear());
+
+test('only an annotator who has answered nothing and has not practiced is new', () => {
+  expect(isNew(me({}), localStorage)).toBe(true);
+  expect(isNew(me({ answers: 1 }), localStorage)).toBe(false);
+  expect(isNew(me({ role: 'admin' }), localStorage)).toBe(false);
+  remember(me({}), localStorage);
+  expect(isNew(me({}), localStorage)).toBe(false);
+  expect(isNew(me({ id: 8 }), localStorage)).toBe(true);
+});
+
+test('one of each kind that is asked is practiced, and none that is a worked example', () => {
+  const run = { domain: 'maze', doing: 'asking', kinds: ['label_hi', 'hier_demo'] };
+  expect(ids(firstQueries(practice, outlook(run)))).toEqual([2]);
+  expect(ids(firstQueries(practice, outlook({ ...run, kinds: [] })))).toEqual([0, 2, 4]);
+  expect(ids(firstQueries(practice, outlook()))).toEqual([0, 2, 4]);
+});
+
+test('nothing is practiced for a domain of which the person gets no queries', () => {
+  const other = { domain: 'taxi', doing: 'asking', kinds: ['label_hi'] };
+  expect(firstQueries(practice, outlook(other))).toEqual([]);
+  expect(ids(firstQueries(practice, outlook({ ...other, doing: 'finished' })))).toEqual([0, 2, 4]);
+});

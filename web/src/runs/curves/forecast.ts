@@ -1,0 +1,92 @@
+// The forecast of a run in words, and as a part of its chart.
+import type { Forecast, ForecastRange, Run } from '../../api/types';
+import type { Goal } from '../../charts/chart';
+import { count, number, percent, seconds, units } from '../../ui/format';
+import type { XAxisName } from './curves';
+
+export type Target = Forecast['target'];
+export const TARGETS = ['0.8', '0.9', '0.95', '0.99'] as const satisfies readonly Target[];
+
+export function targetOf(name: string | null): Target {
+  return TARGETS.find((target) => target === name) ?? '0.9';
+}
+
+/** Return what is known about a run's way to its target, as sentences. */
+export function sentencesOf(forecast: Forecast, run: Run): string[] {
+  const target = percent(Number(forecast.target));
+  const { reached, too_early, more_units, more_seconds } = forecast;
+  if (reached) {
+    return [
+      `${target} of tests succeeded after ${units(reached.cost)}, in episode ${number(reached.episode)}.`,
+    ];
+  }
+  const ended =
+    run.state === 'finished' ? [`The run ended before ${target} of tests succeeded. If it had gone on:`] : [];
+  if (too_early !== null) return [...ended, `Too early to say when ${target} of tests succeed. ${too_early}`];
+  if (more_units === null) return ended;
+  return [
+    ...ended,
+    unitsLeft(more_units, forecast.missed ?? 0, target),
+    ...(more_seconds?.median != null ? [timeLeft(more_seconds)] : []),
+    ...budgetLeft(run, more_units),
+  ];
+}
+
+function unitsLeft({ low, median, high }: ForecastRange, missed: number, target: string): string {
+  const never = `In ${percent(Math.round(missed * 100) / 100)} of the possible futures it never gets there.`;
+  if (low === null) return `${target} of tests will probably never succeed. ${never}`;
+  if (median === null) {
+    return `At least ${number(rough(low))} more ${noun(low)} until ${target} of tests succeed, if ever. ${never}`;
+  }
+  const about = `About ${number(rough(median))} more ${noun(median)}`;
+  if (high === null)
+    return `${about} (${number(rough(low))} or more) until ${target} of tests succeed. ${never}`;
+  return `${about} (${number(rough(low))} to ${number(rough(high))}) until ${target} of tests succeed.`;
+}
+
+function timeLeft({ low, median, high }: ForecastRange): string {
+  const range = high === null ? `${seconds(low ?? 0)} or more` : `${seconds(low ?? 0)} to ${seconds(high)}`;
+  return `For the annotators, this is ${seconds(median ?? 0)} of work (${range}).`;
+}
+
+function budgetLeft({ budget, spent }: Run, { high }: ForecastRange): string[] {
+  if (budget === null || (high !== null && high <= budget - spent)) return [];
+  return [`The budget leaves ${units(budget - spent)}.`];
+}
+
+/** Return what a forecast was made from. */
+export function sourcesOf({ more_units, same_configuration, other_configurations }: Forecast): string | null {
+  if (more_units === null) return null;
+  const others =
+    other_configurations > 0
+      ? ` and ${count(other_configurations, 'other')} of its domain and algorithm`
+      : '';
+  const finished =
+    same_configuration + other_configurations === 0
+      ? ''
+      : `, ${count(same_configuration, 'finished run')} with the same configuration${others}`;
+  return `From this run’s own curve${finished}. In brackets: the middle 80% of the possible futures.`;
+}
+
+/** Return the goal to draw against units; against anything else, only the line of the target. */
+export function goalOf(forecast: Forecast, spent: number, xAxis: XAxisName): Goal {
+  const y = Number(forecast.target);
+  const label = `target ${percent(y)}`;
+  const { low, median, high } = forecast.more_units ?? { low: null, median: null, high: null };
+  if (xAxis !== 'cost' || low === null) return { y, label, span: null };
+  // A long way off would leave no room for the curve itself.
+  const most = Math.max(2 * spent, spent + 1.2 * (median ?? low));
+  const to = high === null ? most : Math.min(spent + high, most);
+  const isCut = high === null || spent + high > most;
+  const middle = median === null ? null : spent + median;
+  return { y, label, span: { from: spent + low, to, middle, label: isCut ? 'forecast →' : 'forecast' } };
+}
+
+function noun(amount: number): string {
+  return rough(amount) === 1 ? 'unit' : 'units';
+}
+
+/** Return a number with two digits that count. */
+function rough(value: number): number {
+  return value < 10 ? Math.max(1, Math.round(value)) : Number(value.toPrecision(2));
+}
