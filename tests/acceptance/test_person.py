@@ -33,7 +33,8 @@ def test_a_person_does_a_run_with_the_keyboard_alone_and_pays_what_the_paper_say
     server: ServerProcess, page: Page
 ) -> None:
     page.goto(server.login_link("person"))
-    page.wait_for_url("**/work")
+    page.wait_for_url("**/practice?first=yes")
+    page.goto(f"{server.url}/work")
     person = Person(page, server.client("learner", "learner"), find_domain("maze"))
     learner = start_learner(server, (*VALUES, *SEED, *LENGTH))
     person.work_until(lambda: learner.poll() is not None)

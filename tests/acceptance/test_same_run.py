@@ -54,7 +54,8 @@ def test_two_bots_and_a_browser_taking_turns_give_the_same_run(
     server: ServerProcess, page: Page, in_process: Reference
 ) -> None:
     page.goto(server.login_link("person"))
-    page.wait_for_url("**/work")
+    page.wait_for_url("**/practice?first=yes")
+    page.goto(f"{server.url}/work")
     person = Person(page, server.client("learner", "learner"), find_domain("maze"))
     with bot(server, "bot one", "--seconds", "0.1"), bot(server, "bot two", "--seconds", "0.1"):
         learner = start_learner(server, (*VALUES, *LENGTH))
