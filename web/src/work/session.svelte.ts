@@ -50,7 +50,7 @@ export class WorkSession {
   #ahead: readonly LeasedAhead[] = [];
   #expected = 0; // the number of requests in progress that may bring a query to lease ahead
   #sending: Promise<unknown> = Promise.resolve();
-  #sent: readonly LeaseProof[] = []; // answers that can be taken back, oldest first
+  #sent: readonly LeaseProof[] = []; // answers, oldest first, also those that the server does not have yet
   #stopped = false;
   #stored = 0; // the number of answers stored since the view was opened
   #meAt = 0;
@@ -70,7 +70,7 @@ export class WorkSession {
     this.#prepare = prepare;
     this.#stopListening = sender.listen({
       stored: (receipt) => this.#count(receipt),
-      refused: (reason) => this.#refused(reason),
+      refused: (reason, assignment) => this.#refused(reason, assignment),
     });
   }
 
@@ -103,6 +103,7 @@ export class WorkSession {
     this.#heartbeat.stop();
     this.notice = null;
     this.phase = 'sending';
+    this.#sent = [...this.#sent, lease].slice(-UNDO_DEPTH);
     const sent = this.#send({ ...lease, answer, key: newName(`answer-${lease.assignment}`), attempts: 0 });
     this.#sending = Promise.all([this.#sending, sent]);
     this.#showAhead();
@@ -136,6 +137,10 @@ export class WorkSession {
       this.notice = { tone: 'info', text: 'There is no answer to take back yet.' };
       return;
     }
+    if (this.#sender.unsent().includes(last.assignment)) {
+      this.#warn('Your last answer is not saved yet, so it cannot be taken back. Try again in a moment.');
+      return;
+    }
     try {
       const assignment = await this.#server.retract(last, this.#tab);
       this.#sent = this.#sent.slice(0, -1);
@@ -151,7 +156,6 @@ export class WorkSession {
     const isNextThere = this.#ahead.length > 0;
     const next = leaseRequest(this.#wanted, this.#tab, isNextThere ? 0 : NEXT_SECONDS, isNextThere);
     const receipt = await this.#expecting(this.#sender.send(pending, next));
-    if (receipt !== null) this.#sent = [...this.#sent, pending].slice(-UNDO_DEPTH);
     if (receipt?.next) this.#receive(receipt.next);
     else if (this.phase === 'sending') {
       this.#forget();
@@ -296,7 +300,8 @@ export class WorkSession {
     this.#heartbeat.now(); // the leases ahead may be lost too
   }
 
-  #refused(reason: Refused): void {
+  #refused(reason: Refused, assignment: number): void {
+    this.#sent = this.#sent.filter((lease) => lease.assignment !== assignment);
     this.#warn(refusalWords(reason));
     this.#heartbeat.now();
   }

@@ -162,6 +162,35 @@ describe('a session', () => {
     expect(shown()).toBe(2);
   });
 
+  it('takes back the last answer, also one that was stored only after an outage, and none before it', async () => {
+    answer.mockResolvedValueOnce(receipt(null)).mockRejectedValueOnce(new Unreachable());
+    server.retract.mockImplementation((lease) => Promise.resolve(assignment(lease.assignment)));
+    await started([assignment(1)], [assignment(2), assignment(3)]);
+    session.submit(PASS);
+    await settled();
+    session.submit(PASS);
+    await session.undo();
+    expect(server.retract).not.toHaveBeenCalled();
+    expect(session.notice?.text).toContain('Your last answer is not saved yet');
+    expect(shown()).toBe(3);
+    answer.mockResolvedValue(receipt(null));
+    await vi.advanceTimersByTimeAsync(60_000);
+    await session.undo();
+    expect(shown()).toBe(2);
+  });
+
+  it('takes back the answer before one that the server refused', async () => {
+    answer.mockResolvedValueOnce(receipt(null)).mockRejectedValueOnce(LATE);
+    server.retract.mockImplementation((lease) => Promise.resolve(assignment(lease.assignment)));
+    await started([assignment(1)], [assignment(2), assignment(3)]);
+    session.submit(PASS);
+    await settled();
+    session.submit(PASS);
+    await settled();
+    await session.undo();
+    expect(shown()).toBe(1);
+  });
+
   it('goes on to the next query while the storage is full', async () => {
     vi.spyOn(sessionStorage, 'setItem').mockImplementation(() => {
       throw new DOMException('The storage is full.', 'QuotaExceededError');

@@ -136,7 +136,7 @@ describe('the sender', () => {
     const late = new Refused(409, { type: '/problems/lease-expired', detail: 'Too late.' });
     answer.mockRejectedValue(late);
     expect(await newAnswerSender().send(pending(1), next)).toBeNull();
-    expect(listener.refused).toHaveBeenCalledWith(late);
+    expect(listener.refused).toHaveBeenCalledWith(late, 1);
     expect(outbox).toEqual([]);
   });
 

@@ -10,7 +10,7 @@ export type SendAnswer = (pending: PendingAnswer, next: LeaseRequest | null) => 
 
 export interface AnswerListener {
   stored(receipt: Receipt): void;
-  refused(reason: Refused): void;
+  refused(reason: Refused, assignment: number): void;
 }
 const NOBODY: AnswerListener = { stored: () => undefined, refused: () => undefined };
 
@@ -84,7 +84,7 @@ export class AnswerSender {
     } catch (error) {
       if (error instanceof Refused && error.status !== 401) {
         this.#set(outboxes.without(this.#outbox, pending.assignment));
-        this.#listener.refused(error);
+        this.#listener.refused(error, pending.assignment);
       } else {
         this.#set(outboxes.attempted(this.#outbox, pending.assignment));
         this.#tryLater(pending.attempts + 1);
