@@ -10,13 +10,14 @@ ARGS ?=
 PYTEST_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help demo serve web docs docs-serve test test-web lint lint-python lint-web bench clean
+.PHONY: help demo serve web docs docs-serve test test-web test-browsers lint lint-python lint-web bench clean
 .DELETE_ON_ERROR:
 
 help:
 	@echo "make demo    run a server, a learner and a bot on this machine; print a link to open"
 	@echo "make serve   run only the server"
 	@echo "make test    run every check and every test"
+	@echo "make test-browsers  open the web app in Firefox and WebKit, which it installs (Debian, Ubuntu)"
 	@echo "make lint    run only the checks: style, types, import contracts"
 	@echo "make bench   measure, and print tables"
 	@echo "make web     build the web app"
@@ -42,6 +43,12 @@ test: lint test-web $(VENV)/.dev web/dist/index.html
 
 test-web: web/node_modules/.stamp
 	@cd web && ../$(WITH_NODE) npm test --silent
+
+# Firefox and WebKit are not among the tests of `make test`, because they are large to install.
+test-browsers: $(VENV)/.dev web/dist/index.html
+	@SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/system-packages firefox-esr webkit2gtk-driver xvfb || \
+	  echo "Nothing is installed here. The tests need Firefox, WebKitWebDriver and xvfb-run."
+	@exec xvfb-run --auto-servernum $(PYTHON) -m pytest tests/browser/others $(PYTEST_ARGS)
 
 docs: $(VENV)/.dev
 	NO_MKDOCS_2_WARNING=1 $(PYTHON) -m mkdocs build --strict

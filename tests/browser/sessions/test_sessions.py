@@ -19,6 +19,7 @@ DEEDS = 60  # where no length is given
 PACE = 0.4 if MINUTES else 0  # seconds
 
 
+@pytest.mark.timeout(300 + 60 * MINUTES)
 @pytest.mark.parametrize("seed", range(5 if MINUTES else 2))
 def test_a_session_loses_nothing_and_doubles_nothing(
     browser: Browser, served: Served, learner: Learner, complaints: Complaints, seed: int
