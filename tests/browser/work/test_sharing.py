@@ -3,7 +3,7 @@
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, ask, log_in, wait_for_heading
-from tests.browser.test_trouble import wait_until_leased
+from tests.browser.work.test_trouble import wait_until_leased
 
 from waypost_server.serving import Served
 

@@ -10,7 +10,7 @@ import time
 import pytest
 from playwright.sync_api import Browser
 from tests.browser.kit import Complaints, Learner, log_in
-from tests.browser.sessions.session import Session
+from tests.browser.work.session import Session
 
 from waypost_server.serving import Served
 
