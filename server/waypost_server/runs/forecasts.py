@@ -9,13 +9,13 @@ from sqlalchemy import func, select
 
 from waypost import wire
 from waypost.prices import MICRO, to_units
+from waypost_server.db.json_text import json_text
 from waypost_server.db.prepared import Record
 from waypost_server.db.tables import answers, assignments, ledger, runs
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import service
 from waypost_server.runs.curves import cumulative, first_at, tests_of
 from waypost_server.runs.futures import Finished, Outcomes, Span, futures_of
-from waypost_server.runs.listing import domain
 
 # They bound the work: the finished runs looked at, newest first, and how many of their episodes are read.
 _MOST_RUNS = 100
@@ -105,7 +105,7 @@ def _finished(tx: Tx, row: Record) -> Iterator[Finished]:
             runs.c.gold_of.is_(None),
             runs.c.spent > 0,
             runs.c.algorithm == row.algorithm,
-            domain(runs.c.vocabulary) == named,
+            json_text(runs.c.vocabulary, "domain") == named,
             runs.c.id != row.id,
         )
         .order_by(runs.c.number.desc())

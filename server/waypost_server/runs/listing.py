@@ -3,12 +3,11 @@
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Select, String, func, or_, select
-from sqlalchemy.ext.compiler import compiles
+from sqlalchemy import Select, func, or_, select
 from sqlalchemy.sql.elements import ColumnElement
-from sqlalchemy.sql.functions import FunctionElement
 
 from waypost import wire
+from waypost_server.db.json_text import json_text
 from waypost_server.db.tables import runs
 from waypost_server.db.transaction import Tx
 from waypost_server.runs.service import RUNS, of_row
@@ -28,23 +27,6 @@ class Filter:
     limit: int = 200
 
 
-class domain(FunctionElement[str]):  # noqa: N801 - a SQL function
-    """The name of a run's domain, read from its vocabulary."""
-
-    inherit_cache = True
-    type = String()
-
-
-@compiles(domain, "sqlite")
-def _sqlite_domain(element: domain, compiler: Any, **options: Any) -> str:
-    return f"json_extract({compiler.process(element.clauses, **options)}, '$.domain')"
-
-
-@compiles(domain, "postgresql")
-def _postgresql_domain(element: domain, compiler: Any, **options: Any) -> str:
-    return f"(CAST({compiler.process(element.clauses, **options)} AS json) ->> 'domain')"
-
-
 def list_runs(tx: Tx, chosen: Filter) -> wire.RunList:
     """Return one page of runs, and the number of runs on all pages."""
     conditions = _conditions(chosen)
@@ -56,7 +38,7 @@ def list_runs(tx: Tx, chosen: Filter) -> wire.RunList:
 def _conditions(chosen: Filter) -> list[ColumnElement[bool]]:
     conditions: list[ColumnElement[bool]] = [runs.c.gold_of.is_(None)]
     for word in chosen.text.lower().split():
-        places = (runs.c.name, runs.c.algorithm, domain(runs.c.vocabulary), runs.c.id)
+        places = (runs.c.name, runs.c.algorithm, json_text(runs.c.vocabulary, "domain"), runs.c.id)
         conditions.append(or_(*(func.lower(place).contains(word, autoescape=True) for place in places)))
     if chosen.state is not None:
         conditions.append(runs.c.state == chosen.state)

@@ -10,7 +10,17 @@ from sqlalchemy.sql.selectable import FromClause
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.tables import DIFFERS, IS_LIVE, answers, assignments, gold_showings, queries, users
+from waypost_server.db.json_text import json_text
+from waypost_server.db.tables import (
+    DIFFERS,
+    IS_LIVE,
+    answers,
+    assignments,
+    comments,
+    gold_showings,
+    queries,
+    users,
+)
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import second, shadow
 from waypost_server.queries.service import ANSWER
@@ -26,11 +36,13 @@ class QueryFilter:
     kind: wire.Kind | None = None
     episode: int | None = None
     annotator: str | None = None
+    text: str = ""  # each of its words is in the question, a comment, a reason to skip, or the annotator's name
     disagrees: wire.Disagreement | None = None  # only answers that differ from this
 
 
 _annotator = users.alias("annotator")
 _holder = users.alias("holder")
+_past = assignments.alias("past")
 
 
 _FROM = (
@@ -57,7 +69,7 @@ def query_page(tx: Tx, run: str, chosen: QueryFilter, page: RowPage) -> wire.Que
     if chosen.disagrees == "second":
         conditions.append(queries.c.id.in_(second.disagreeing(tx, run)))
     counted = select(func.count(), func.max(queries.c.id), func.min(queries.c.id)).where(*conditions)
-    joined: FromClause = queries if chosen.annotator is None else _FROM
+    joined: FromClause = _FROM if chosen.annotator is not None or chosen.text else queries
     total, newest, oldest = tx.conn.execute(counted.select_from(joined)).one()
     rows = list(page.in_order(tx.conn.execute(page.of(_ROWS.where(*conditions), queries.c.id)).all()))
     endings = _endings(tx, [row.id for row in rows])
@@ -75,12 +87,23 @@ def _query_conditions(run: str | None, chosen: QueryFilter) -> list[ColumnElemen
         conditions.append(queries.c.episode == chosen.episode)
     if chosen.annotator is not None:
         conditions.append(or_(_annotator.c.name == chosen.annotator, _holder.c.name == chosen.annotator))
+    conditions.extend(_has_word(word) for word in chosen.text.lower().split())
     if chosen.disagrees == "suggestion":
         conditions.append(DIFFERS)
     if chosen.disagrees == "gold":
         wrong = (gold_showings.c.query_id == queries.c.id, gold_showings.c.n_right < gold_showings.c.n_labels)
         conditions.append(exists().where(*wrong))
     return conditions
+
+
+def _has_word(word: str) -> ColumnElement[bool]:
+    def has(place: ColumnElement[Any]) -> ColumnElement[bool]:
+        return func.lower(place).contains(word, autoescape=True)
+
+    places = (json_text(queries.c.ask, "question"), _annotator.c.name, _holder.c.name)
+    commented = exists().where(comments.c.query_id == queries.c.id, has(comments.c.text))
+    skipped = exists().where(_past.c.query_id == queries.c.id, has(_past.c.reason))
+    return or_(*map(has, places), commented, skipped)
 
 
 def _endings(tx: Tx, ids: Sequence[int]) -> dict[tuple[int, str], int]:

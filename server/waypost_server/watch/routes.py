@@ -22,6 +22,14 @@ router = APIRouter(tags=["watching"], route_class=JsonRoute)
 Before = Annotated[int | None, Query(ge=0, le=2**63 - 1, description="Only rows older than this one.")]
 After = Annotated[int | None, Query(ge=0, le=2**63 - 1, description="The oldest rows that are newer than this one.")]
 Limit = Annotated[int, Query(ge=1, le=500)]
+Text = Annotated[
+    str,
+    Query(
+        max_length=100,
+        pattern=r"^[^\x00]*$",
+        description="Words, each of which is in the question, a comment, a reason to skip, or the annotator's name.",
+    ),
+]
 Word = Annotated[str | None, Query(max_length=100, pattern=r"^[^\x00]*$")]
 
 
@@ -34,12 +42,13 @@ async def list_query_rows(
     kind: wire.Kind | None = None,
     episode: RowQuery | None = None,
     annotator: Word = None,
+    text: Text = "",
     before: Before = None,
     after: After = None,
     limit: Limit = 50,
 ) -> wire.QueryPage:
     """List one page of a run's queries without their trajectories, newest first."""
-    chosen = query_rows.QueryFilter(state, kind, episode, annotator)
+    chosen = query_rows.QueryFilter(state, kind, episode, annotator, text)
     page = RowPage(before, after, limit)
     return await context.db.read(lambda tx: query_rows.query_page(tx, run, chosen, page))
 

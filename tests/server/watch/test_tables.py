@@ -55,6 +55,32 @@ def test_queries_are_filtered_and_leafed_through_both_ways(service: Service) -> 
     assert get("/runs/000000000000/query-rows", 404)["type"] == "/problems/not-found"
 
 
+def test_queries_are_found_by_words_of_the_question_a_comment_a_reason_or_a_name(service: Service) -> None:
+    run = service.learner.create_run()
+    asks = [query(question="Did it burn in 100 % of the lava?"), query(ordinal=1), query(ordinal=2)]
+    first, second, third = (one["id"] for one in service.learner.ask(run, *asks))
+    service.annotator.answer(service.annotator.lease())
+    service.annotator.answer(service.annotator.lease())
+    held = service.annotator.lease()
+    skip = {"token": held["token"], "reason": "Too dark", "skip": True}
+    service.annotator.post(f"/assignments/{held['id']}/release", skip, 204)
+    service.learner.post(f"/queries/{second}/comments", {"text": "Why not east?"}, 201)
+
+    def found(words: str) -> list[int]:
+        page = service.viewer.get(f"/runs/{run}/query-rows", params={"text": words})
+        assert page["total"] == len(page["rows"])
+        return [row["id"] for row in page["rows"]]
+
+    assert found("LAVA burn") == [first]
+    assert found("%") == [first], "no pattern of the database"
+    assert found("east") == [second]
+    assert found("dark") == [third]
+    assert found("abe") == [second, first]
+    assert found("abe lava") == [first]
+    assert found("east lava") == []
+    assert found("segments") == [], "the trajectory is not searched"
+
+
 def test_the_ledger_lists_charges_and_refunds_and_agrees_with_the_account(service: Service) -> None:
     run = service.learner.create_run(budget=20)
     service.learner.ask(run, query("label_lo"), query(ordinal=1))

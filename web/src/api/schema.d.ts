@@ -7248,6 +7248,8 @@ export interface operations {
                 kind?: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full") | null;
                 episode?: number | null;
                 annotator?: string | null;
+                /** @description Words, each of which is in the question, a comment, a reason to skip, or the annotator's name. */
+                text?: string;
                 /** @description Only rows older than this one. */
                 before?: number | null;
                 /** @description The oldest rows that are newer than this one. */
