@@ -47,6 +47,7 @@ export function svgDocument(drawn: SVGSVGElement, { title, about }: Heading): st
   );
   set(copy, { x: MARGIN, y: HEAD, width, height });
   sheet.append(copy);
+  // eslint-disable-next-line waypost/untranslated -- XML
   return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(sheet)}\n`;
 }
 
