@@ -1,4 +1,4 @@
-// The catalogue: which texts of the sources belong to it, and in which languages it is. docs/decisions/0032 explains it.
+// The catalogue: which texts of the sources belong to it, and in which languages it is. docs/decisions/0033 explains it.
 import { adapter as componentAdapter } from '@wuchale/svelte';
 import { pofile } from 'wuchale';
 import { adapter as scriptAdapter } from 'wuchale/adapter-vanilla';

@@ -82,6 +82,7 @@ def open_page(browser: Browser, served: Served, complaints: Complaints) -> Itera
         motion: str = "no-preference",
         intercepted: bool = False,
         touch: bool = False,
+        locale: str = "en-US",
     ) -> Page:
         server = at or served
         context = browser.new_context(
@@ -91,6 +92,7 @@ def open_page(browser: Browser, served: Served, complaints: Complaints) -> Itera
             reduced_motion=motion,
             has_touch=touch,
             is_mobile=touch,
+            locale=locale,
         )
         context.set_default_timeout(15_000)
         contexts.append(context)
