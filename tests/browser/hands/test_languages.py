@@ -6,7 +6,7 @@ from functools import cache
 import pytest
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import WEB, Open
-from tests.browser.kit import Learner, ask, wait_for_heading
+from tests.browser.kit import Complaints, Learner, ask, wait_for_heading
 from tests.browser.test_access import violations_at_every_width
 from tests.browser.test_narrow import PHONE, too_wide
 
@@ -136,3 +136,12 @@ def test_who_reads_english_does_not_load_german(open_page: Open, locale: str, lo
     heading = "Mit einem Link anmelden" if loaded else "Sign in with a link"
     expect(page.get_by_role("heading", name=heading)).to_be_visible()
     assert sum(".compiled" in address for address in requests) == loaded
+
+
+def test_without_its_catalogue_the_page_is_english(open_page: Open, complaints: Complaints) -> None:
+    complaints.expect("net::ERR_FAILED")
+    page = open_page("/login", role=None, locale=GERMAN, intercepted=True)
+    page.context.route("**/*.compiled*", lambda route: route.abort())
+    page.reload()
+    expect(page.get_by_role("heading", name="Sign in with a link")).to_be_visible()
+    expect(page.locator("html")).to_have_attribute("lang", "en")

@@ -6,4 +6,4 @@ import App from './App.svelte';
 
 const target = document.getElementById('app');
 if (target === null) throw new Error('index.html has no #app');
-void loadTexts().finally(() => mount(App, { target }));
+void loadTexts().then(() => mount(App, { target }));

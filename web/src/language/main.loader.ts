@@ -11,11 +11,15 @@ const OTHERS = import.meta.glob<CatalogModule>([
 
 let runtime = toRuntime(Object.values(ENGLISH)[0], 'en');
 
-/** Load the texts of the page's language. If that fails, the page is in English. */
+/** Load the texts of the page's language. */
 export async function loadTexts(): Promise<void> {
-  const texts = await OTHERS[`./.wuchale/main.main.${language}.compiled.js`]?.();
-  if (texts !== undefined) runtime = toRuntime(texts, language);
-  document.documentElement.lang = language;
+  try {
+    const texts = await OTHERS[`./.wuchale/main.main.${language}.compiled.js`]?.();
+    if (texts !== undefined) runtime = toRuntime(texts, language);
+    document.documentElement.lang = language;
+  } catch {
+    // They cannot be loaded: the page is in English.
+  }
 }
 
 /** Return the texts. They stay the same until the page is loaded again, so nothing is reactive. */
