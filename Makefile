@@ -62,6 +62,7 @@ lint-web: web/node_modules/.stamp $(VENV)/.dev
 	@cd web && ../$(WITH_NODE) npm run --silent lint
 	@cd web && ../$(WITH_NODE) npm run --silent layers
 	@cd web && ../$(WITH_NODE) npm run --silent format:check
+	@cd web && ../$(WITH_NODE) npm run --silent texts:check
 	@cd web && ../$(WITH_NODE) npm run --silent types:check
 
 bench: $(VENV)/.dev $(PEERS)/.installed

@@ -27,7 +27,7 @@ def only_english() -> frozenset[str]:
     return frozenset(one.replace('\\"', '"') for one in english - german)
 
 
-def english(page: Page) -> set[str]:
+def english(page: Page) -> frozenset[str]:
     """The texts on the page that should be German; what a learner or the server wrote is in its own language."""
     return only_english() & set(page.evaluate(READ)) - {"learner"}  # the name of the learner's account
 

@@ -117,7 +117,7 @@ function legal(text: string): string {
 }
 
 function nameOf({ title, about }: Heading, ending: string): string {
-  const words = `${about} ${title}`.toLowerCase().replace(/[^a-z0-9]+/g, '-');
+  const words = `${about} ${title}`.toLowerCase().replace(/[^\p{L}\p{N}]+/gu, '-');
   return `${words.replace(/^-|-$/g, '').slice(0, 80) || 'chart'}.${ending}`;
 }
 
