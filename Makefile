@@ -117,7 +117,7 @@ web/node_modules/.stamp: web/package.json web/package-lock.json | $(VENV)/.made
 	@touch $@
 
 web/dist/index.html: web/node_modules/.stamp web/index.html web/vite.config.ts web/svelte.config.js web/wuchale.config.js web/tsconfig.json \
-  $(shell find web/src web/public -type f ! -name '*.test.ts')
+  $(shell find web/src web/public -type f ! -name '*.test.ts' ! -path '*/.wuchale/*' ! -name data.js)
 	@echo "Building the web app."
 	@cd web && ../$(WITH_NODE) npm run --silent build -- --logLevel warn
 	@touch $@

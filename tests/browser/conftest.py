@@ -26,7 +26,9 @@ Open = Callable[..., Page]
 def built_page() -> Path:
     """The page, built if it is missing or older than its sources."""
     built = WEB / "dist" / "index.html"
-    sources = [WEB / "index.html", WEB / "package.json", *WEB.glob("src/**/*"), *WEB.glob("public/*")]
+    written = (".wuchale", "data.js")  # by the build
+    files = [*WEB.glob("src/**/*"), *WEB.glob("public/*"), WEB / "index.html", WEB / "package.json"]
+    sources = [file for file in files if file.is_file() and not any(name in file.parts for name in written)]
     if not built.is_file() or built.stat().st_mtime < max(source.stat().st_mtime for source in sources):
         if not (WEB / "node_modules").is_dir():
             subprocess.run(["npm", "ci"], cwd=WEB, check=True)
