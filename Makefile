@@ -69,6 +69,7 @@ lint-web: web/node_modules/.stamp $(VENV)/.dev
 	@cd web && ../$(WITH_NODE) npm run --silent lint
 	@cd web && ../$(WITH_NODE) npm run --silent layers
 	@cd web && ../$(WITH_NODE) npm run --silent format:check
+	@cd web && ../$(WITH_NODE) npm run --silent texts:check
 	@cd web && ../$(WITH_NODE) npm run --silent types:check
 
 bench: $(VENV)/.dev $(PEERS)/.installed
@@ -122,8 +123,8 @@ web/node_modules/.stamp: web/package.json web/package-lock.json | $(VENV)/.made
 	@cd web && ../$(WITH_NODE) npm ci --no-audit --no-fund --loglevel=error
 	@touch $@
 
-web/dist/index.html: web/node_modules/.stamp web/index.html web/vite.config.ts web/svelte.config.js web/tsconfig.json \
-  $(shell find web/src web/public -type f ! -name '*.test.ts')
+web/dist/index.html: web/node_modules/.stamp web/index.html web/vite.config.ts web/svelte.config.js web/wuchale.config.js web/tsconfig.json \
+  $(shell find web/src web/public -type f ! -name '*.test.ts' ! -path '*/.wuchale/*' ! -name data.js)
 	@echo "Building the web app."
 	@cd web && ../$(WITH_NODE) npm run --silent build -- --logLevel warn
 	@touch $@

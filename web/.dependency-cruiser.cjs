@@ -2,6 +2,7 @@
 
 /** From the bottom to the top. Folders of one layer do not import each other. */
 const LAYERS = [
+  ['language'], // the language of the page, and its texts
   ['api', 'router', 'ui/style'], // the server's REST API and events; addresses; colors, sizes and themes
   ['keys'], // the one list of keys, and what a key press means
   ['ui'], // components and formats of every view; who is signed in
@@ -49,6 +50,7 @@ module.exports = {
   ],
   options: {
     doNotFollow: { path: 'node_modules' },
+    exclude: { path: 'src/language/(\\.wuchale/|data\\.js)' }, // made by the build
     tsPreCompilationDeps: true, // imports of types count, too
     enhancedResolveOptions: { extensions: ['.ts', '.d.ts', '.js'] },
   },

@@ -5,9 +5,10 @@ import globals from 'globals';
 import { defineConfig, globalIgnores } from 'eslint/config';
 import ts from 'typescript-eslint';
 import svelteConfig from './svelte.config.js';
+import untranslated from './untranslated.js';
 
 export default defineConfig(
-  globalIgnores(['dist/', 'src/api/schema.d.ts']),
+  globalIgnores(['dist/', 'src/api/schema.d.ts', 'src/language/.wuchale/', 'src/language/data.js']),
   { linterOptions: { reportUnusedDisableDirectives: 'error' } },
   js.configs.recommended,
   {
@@ -46,6 +47,12 @@ export default defineConfig(
       '@typescript-eslint/no-unsafe-member-access': 'off',
       '@typescript-eslint/no-unsafe-return': 'off',
     },
+  },
+  {
+    files: ['src/**/*.ts', 'src/**/*.svelte'],
+    ignores: ['**/*.test.ts'],
+    plugins: { waypost: { rules: { untranslated } } },
+    rules: { 'waypost/untranslated': 'error' },
   },
   { files: ['*.mjs', '*.cjs', '*.js'], languageOptions: { globals: globals.node } },
   { files: ['public/*.js'], languageOptions: { globals: globals.browser } },

@@ -10,6 +10,7 @@ const web = fileURLToPath(new URL('.', import.meta.url));
 const copy = mkdtempSync(join(tmpdir(), 'waypost-layers-'));
 try {
   cpSync(join(web, 'src'), join(copy, 'src'), { recursive: true });
+  cpSync(join(web, 'wuchale.config.js'), join(copy, 'wuchale.config.js')); // a test reads it
   for (const name of readdirSync(copy, { recursive: true })) {
     if (!name.endsWith('.svelte')) continue;
     const path = join(copy, name);

@@ -1,9 +1,11 @@
 // Builds the web app, serves it during development, and runs its unit tests.
 import { svelte } from '@sveltejs/vite-plugin-svelte';
+import { wuchale } from 'wuchale/vite';
 import { defineConfig } from 'vitest/config';
 
 export default defineConfig(({ mode }) => ({
-  plugins: [svelte()],
+  // Unit tests read the English texts of the sources.
+  plugins: [...(mode === 'test' ? [] : [wuchale()]), svelte()],
   // A test that puts a component on the page needs the Svelte of browsers.
   ...(mode === 'test' ? { resolve: { conditions: ['browser'] } } : {}),
   build: {

@@ -26,7 +26,9 @@ Open = Callable[..., Page]
 def built_page() -> Path:
     """The page, built if it is missing or older than its sources."""
     built = WEB / "dist" / "index.html"
-    sources = [WEB / "index.html", WEB / "package.json", *WEB.glob("src/**/*"), *WEB.glob("public/*")]
+    written = (".wuchale", "data.js")  # by the build
+    files = [*WEB.glob("src/**/*"), *WEB.glob("public/*"), WEB / "index.html", WEB / "package.json"]
+    sources = [file for file in files if file.is_file() and not any(name in file.parts for name in written)]
     if not built.is_file() or built.stat().st_mtime < max(source.stat().st_mtime for source in sources):
         if not (WEB / "node_modules").is_dir():
             subprocess.run(["npm", "ci"], cwd=WEB, check=True)
@@ -82,6 +84,7 @@ def open_page(browser: Browser, served: Served, complaints: Complaints) -> Itera
         motion: str = "no-preference",
         intercepted: bool = False,
         touch: bool = False,
+        locale: str = "en-US",
     ) -> Page:
         server = at or served
         context = browser.new_context(
@@ -91,6 +94,7 @@ def open_page(browser: Browser, served: Served, complaints: Complaints) -> Itera
             reduced_motion=motion,
             has_touch=touch,
             is_mobile=touch,
+            locale=locale,
         )
         context.set_default_timeout(15_000)
         contexts.append(context)

@@ -1,5 +1,6 @@
 // The client of the server's REST API, and the two ways in which a request fails.
 import createClient from 'openapi-fetch';
+import { t } from '../language/language';
 import type { components, paths } from './schema';
 
 type Problem = components['schemas']['Problem'];
@@ -10,7 +11,7 @@ export class Refused extends Error {
   override readonly name: string;
 
   constructor(status: number, problem: Partial<Problem> | undefined) {
-    super(problem?.detail ?? `The server answered with status ${status}.`);
+    super(problem?.detail ?? t(`The server answered with status ${status}.`));
     this.status = status;
     this.name = problem?.type?.split('/').at(-1) ?? 'refused';
   }
@@ -55,12 +56,13 @@ export function isAborted(error: unknown): boolean {
   return error instanceof DOMException && error.name === 'AbortError';
 }
 
-const UNREACHABLE = 'The server cannot be reached.';
 /** For views that reload their data automatically. */
-export const TRYING_AGAIN = 'The server cannot be reached. The web app tries again automatically.';
+export function tryingAgain(): string {
+  return t('The server cannot be reached. The web app tries again automatically.');
+}
 
-/** Return what to tell the person about an error. */
-export function wordsOf(error: unknown, unreachable = UNREACHABLE): string {
-  if (error instanceof Unreachable) return unreachable;
+/** Return what to tell the person about an error. A refusal is in the language of the server. */
+export function wordsOf(error: unknown, unreachable?: string): string {
+  if (error instanceof Unreachable) return unreachable ?? t('The server cannot be reached.');
   return error instanceof Error ? error.message : String(error);
 }

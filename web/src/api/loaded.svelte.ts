@@ -1,5 +1,6 @@
 // A value that a view loads from the server, or the reason why there is none.
-import { isAborted, Refused, TRYING_AGAIN, wordsOf } from './client';
+import { t } from '../language/language';
+import { isAborted, Refused, tryingAgain, wordsOf } from './client';
 
 interface Options {
   /** Whether the view reloads its data automatically; error messages then say so. */
@@ -17,7 +18,7 @@ export class Loaded<T> {
 
   constructor(fetch: () => Promise<T>, { live = false }: Options = {}) {
     this.#fetch = fetch;
-    if (live) this.#unreachable = TRYING_AGAIN;
+    if (live) this.#unreachable = tryingAgain();
   }
 
   get isMissing(): boolean {
@@ -45,7 +46,7 @@ export class Loaded<T> {
     try {
       await request();
     } catch (error) {
-      this.#fail(error, 'The server cannot be reached, so the change may not be saved. Try again.');
+      this.#fail(error, t('The server cannot be reached, so the change may not be saved. Try again.'));
       return false;
     }
     return this.load();

@@ -1,4 +1,5 @@
 // The names that people read: of the kinds of query, of subgoals and of actions.
+import { t } from '../language/language';
 import type { Kind } from './types';
 
 /** The paper's names of the queries. */
@@ -11,19 +12,21 @@ export const KIND_NAMES: Readonly<Record<Kind, string>> = {
   label_full: 'Label_FULL',
 };
 
-/** What annotators read instead: what a query of this kind asks for. */
-export const KIND_WORDS: Readonly<Record<Kind, string>> = {
-  hier_demo: 'Show the whole task',
-  inspect_full: 'Did the whole task work?',
-  label_hi: 'Choose the subgoals',
-  inspect_lo: 'Did this segment work?',
-  label_lo: 'Correct the steps of a segment',
-  label_full: 'Correct every step',
-};
+/** Return what annotators read instead: what a query of each kind asks for. */
+export function kindWords(): Readonly<Record<Kind, string>> {
+  return {
+    hier_demo: t('Show the whole task'),
+    inspect_full: t('Did the whole task work?'),
+    label_hi: t('Choose the subgoals'),
+    inspect_lo: t('Did this segment work?'),
+    label_lo: t('Correct the steps of a segment'),
+    label_full: t('Correct every step'),
+  };
+}
 
 /** Return the names of the kinds: the paper's for those who run the learner, plain words for annotators. */
 export function namesOfKinds(papers: boolean): Readonly<Record<Kind, string>> {
-  return papers ? KIND_NAMES : KIND_WORDS;
+  return papers ? KIND_NAMES : kindWords();
 }
 
 /** Return a name as people read it: "go_to_target" becomes "go to target". */

@@ -28,9 +28,9 @@ it('offers every command of the view with its key, but not itself', () => {
 
 it('finds entries that have every typed word in any order, those that begin with it first', () => {
   const entries = [
-    { group: 'Runs', words: 'big maze, lean', hint: 'running', address: '' },
-    { group: 'Runs', words: 'maze, paper', hint: 'paused', address: '' },
-    { group: 'Runs', words: 'corridor', hint: 'running', address: '' },
+    { group: 'runs', words: 'big maze, lean', hint: 'running', address: '' },
+    { group: 'runs', words: 'maze, paper', hint: 'paused', address: '' },
+    { group: 'runs', words: 'corridor', hint: 'running', address: '' },
   ] as const;
   expect(words(matching(entries, 'MAZE'))).toEqual(['maze, paper', 'big maze, lean']);
   expect(words(matching(entries, ' running  big '))).toEqual(['big maze, lean']);

@@ -1,39 +1,58 @@
 // What the find dialog offers: views, runs, and the commands of the view on the screen. Pure.
+import { nameOfRunState } from '../api/states';
 import type { Me, Run } from '../api/types';
 import type { Binding, Command } from '../keys/registry';
+import { t } from '../language/language';
 
 /** A line of the dialog. It opens an address, or does what a key of the view does. */
 export type Entry = {
   readonly words: string;
   readonly hint: string; // beside the words; it is searched, too
 } & (
-  | { readonly group: 'Go to' | 'Runs'; readonly address: string }
-  | { readonly group: 'Here'; readonly command: Command; readonly key: string }
+  | { readonly group: 'views' | 'runs'; readonly address: string }
+  | { readonly group: 'commands'; readonly command: Command; readonly key: string }
 );
+
+/** Return the name of a group of lines, as people read it. */
+export function nameOfGroup(group: Entry['group']): string {
+  const names: Readonly<Record<Entry['group'], string>> = {
+    views: t('Go to'),
+    runs: t('Runs'),
+    commands: t('Here'),
+  };
+  return names[group];
+}
 
 /** Return the views that a user may open. */
 export function viewsOf(me: Me): Entry[] {
   const views = [
-    ['Work', 'answer questions', '/work'],
-    ['Runs', 'success, costs and queries', '/runs'],
-    ['Practice', 'with the right answers', '/practice'],
-    ['My numbers, tokens and sessions', me.name, '/me'],
+    [t('Work'), t('answer questions'), '/work'],
+    [t('Runs'), t('success, costs and queries'), '/runs'],
+    [t('Practice'), t('with the right answers'), '/practice'],
+    [t('My numbers, tokens and sessions'), me.name, '/me'],
     ...(me.role === 'admin'
       ? [
-          ['People', 'users and their roles', '/people'],
-          ['Audit log', 'logins, refusals and changes', '/people/audit'],
+          [t('People'), t('users and their roles'), '/people'],
+          [t('Audit log'), t('logins, refusals and changes'), '/people/audit'],
         ]
       : []),
   ] as const;
-  return views.map(([words, hint, address]) => ({ group: 'Go to', words, hint, address }));
+  return views.map(([words, hint, address]) => ({ group: 'views', words, hint, address }));
 }
 
 /** Return what can be opened of a run. */
 export function placesOf(run: Run): Entry[] {
   const id = encodeURIComponent(run.id);
-  const places: Entry[] = [{ group: 'Runs', words: run.name, hint: run.state, address: `/runs/${id}` }];
+  const places: Entry[] = [
+    { group: 'runs', words: run.name, hint: nameOfRunState(run.state), address: `/runs/${id}` },
+  ];
   if (run.state === 'running')
-    places.push({ group: 'Runs', words: run.name, hint: 'answer its questions', address: `/work?run=${id}` });
+    places.push({
+      group: 'runs',
+      words: run.name,
+      hint: t('answer its questions'),
+      address: `/work?run=${id}`,
+    });
   return places;
 }
 
@@ -42,9 +61,9 @@ export function commandsOf(bindings: readonly Binding[]): Entry[] {
   return bindings
     .filter(({ command, keys }) => command !== 'find' && keys.length > 0)
     .map(({ command, keys, label, group }) => ({
-      group: 'Here',
+      group: 'commands',
       words: label,
-      hint: group.toLowerCase(),
+      hint: group,
       command,
       key: keys[0] ?? '',
     }));

@@ -1,6 +1,7 @@
 // A chart as plain values: marks, axes, paths and readings. Chart.svelte draws it as SVG; the download is the same SVG.
 import { scaleLinear } from 'd3-scale';
 import { area, curveLinear, curveStepAfter, line, type CurveFactory } from 'd3-shape';
+import { t } from '../language/language';
 import { SUBGOAL_COLORS } from '../ui/style/subgoals';
 
 /** What distinguishes a series: its color and, for people who cannot see the color, its dashes and marker. */
@@ -167,7 +168,7 @@ export function readingOf(one: Series, x: number, format: (value: number) => str
   if (row === null || value === null || value === undefined) return '–';
   if (one.filled !== 'soft') return format(value);
   const [low, high] = [one.low?.[row] ?? value, one.high?.[row] ?? value];
-  return low === high ? format(value) : `${format(value)} (${format(low)} to ${format(high)})`;
+  return low === high ? format(value) : t(`${format(value)} (${format(low)} to ${format(high)})`);
 }
 
 /** Return the number of the stop nearest to x. */

@@ -47,6 +47,7 @@ export function svgDocument(drawn: SVGSVGElement, { title, about }: Heading): st
   );
   set(copy, { x: MARGIN, y: HEAD, width, height });
   sheet.append(copy);
+  // eslint-disable-next-line waypost/untranslated -- XML
   return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(sheet)}\n`;
 }
 
@@ -116,7 +117,7 @@ function legal(text: string): string {
 }
 
 function nameOf({ title, about }: Heading, ending: string): string {
-  const words = `${about} ${title}`.toLowerCase().replace(/[^a-z0-9]+/g, '-');
+  const words = `${about} ${title}`.toLowerCase().replace(/[^\p{L}\p{N}]+/gu, '-');
   return `${words.replace(/^-|-$/g, '').slice(0, 80) || 'chart'}.${ending}`;
 }
 

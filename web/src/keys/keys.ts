@@ -1,4 +1,5 @@
 // Key presses: how keys are named and printed, and which binding a press means.
+import { t } from '../language/language';
 import type { Binding, Command } from './registry';
 
 /** The part of a KeyboardEvent that identifies the key. */
@@ -44,16 +45,16 @@ const PRINTED: Readonly<Record<string, string>> = {
   ArrowRight: '→',
   ArrowUp: '↑',
   ArrowDown: '↓',
-  ' ': 'Space',
   Backspace: '⌫',
   Enter: '↵',
-  Escape: 'Esc',
 };
 
 /** Return how a key is printed on a button. */
 export function printed(key: string): string {
-  if (key.startsWith('Ctrl+')) return `Ctrl ${printed(key.slice(5))}`;
+  if (key.startsWith('Ctrl+')) return t(`Ctrl ${printed(key.slice(5))}`);
   if (key.startsWith('Shift+')) return `⇧ ${printed(key.slice(6))}`;
+  if (key === ' ') return t('Space');
+  if (key === 'Escape') return t('Esc');
   return PRINTED[key] ?? (key.length === 1 ? key.toUpperCase() : key);
 }
 

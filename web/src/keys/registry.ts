@@ -1,6 +1,7 @@
 // The one list of keys: every mode, its keys, and what they do.
 import { initial, readable } from '../api/names';
 import { ANSWERABLE, type Vocabulary } from '../api/types';
+import { t } from '../language/language';
 
 /** What a key can do. `choose:2` labels with the vocabulary's third subgoal or action; `act:2` steps with its third action. */
 export type Command =
@@ -44,10 +45,9 @@ export interface Binding {
   readonly command: Command;
   readonly keys: readonly string[]; // as `keyOf` names them; the first one is printed on the button
   readonly label: string;
-  readonly group: Group;
+  readonly group: string; // of the help, as people read it
   readonly once?: true; // ignored while the key repeats
 }
-type Group = 'Answer' | 'Review' | 'Player' | 'Task' | 'General';
 
 /** Every mode: what is on the screen, which decides what the keys do. */
 export const MODES = [
@@ -66,7 +66,7 @@ export type Mode = (typeof MODES)[number];
 export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[] {
   const choices = vocabulary === null ? [] : choiceBindings(mode, vocabulary);
   const taken = new Set(choices.flatMap((binding) => binding.keys));
-  const rest = [...answerBindings(mode), ...taskBindings(mode), ...COMMON_BINDINGS];
+  const rest = [...answerBindings(mode), ...taskBindings(mode), ...commonBindings()];
   const free = rest.map((binding) => ({
     ...binding,
     keys: binding.keys.filter((key) => !taken.has(key)),
@@ -76,9 +76,9 @@ export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[
 
 function taskBindings(mode: Mode): readonly Binding[] {
   if (mode === 'feedback' || mode === 'example' || mode === 'between') return [];
-  if (mode === 'waiting') return [UNDO];
-  if (mode === 'review') return PLAYER;
-  return mode === 'hier_demo' || mode === 'flat_demo' ? TASK : [...TASK, ...PLAYER];
+  if (mode === 'waiting') return [undo()];
+  if (mode === 'review') return player();
+  return mode === 'hier_demo' || mode === 'flat_demo' ? task() : [...task(), ...player()];
 }
 
 /** Return the keys that have two bindings. */
@@ -87,108 +87,125 @@ export function collisions(bindings: readonly Binding[]): string[] {
   return [...new Set(keys.filter((key, index) => keys.indexOf(key) !== index))];
 }
 
-const HELP: Binding = { command: 'help', keys: ['?'], label: 'Show every key', group: 'General', once: true };
-const FIND: Binding = {
+const help = (): Binding => ({
+  command: 'help',
+  keys: ['?'],
+  label: t('Show every key'),
+  group: t('General'),
+  once: true,
+});
+const find = (): Binding => ({
   command: 'find',
   keys: ['Ctrl+k'],
-  label: 'Find a view, a run or a command',
-  group: 'General',
+  label: t('Find a view, a run or a command'),
+  group: t('General'),
   once: true,
-};
+});
 /** The bindings of every view. */
-export const COMMON_BINDINGS: readonly Binding[] = [HELP, FIND];
+export const commonBindings = (): readonly Binding[] => [help(), find()];
 
-const UNDO: Binding = {
+const undo = (): Binding => ({
   command: 'undo',
   keys: ['u'],
-  label: 'Take back my last answer',
-  group: 'Task',
+  label: t('Take back my last answer'),
+  group: t('Task'),
   once: true,
-};
+});
 
-const TASK: readonly Binding[] = [
-  { command: 'skip', keys: ['s', 'Shift+s'], label: 'Skip, with a reason', group: 'Task', once: true },
-  UNDO,
+const task = (): readonly Binding[] => [
+  { command: 'skip', keys: ['s', 'Shift+s'], label: t('Skip, with a reason'), group: t('Task'), once: true },
+  undo(),
 ];
 
-const PLAYER: readonly Binding[] = [
-  { command: 'play', keys: [' '], label: 'Play or pause', group: 'Player', once: true },
-  { command: 'back', keys: ['ArrowLeft', ','], label: 'One step back', group: 'Player' },
-  { command: 'forward', keys: ['ArrowRight', '.'], label: 'One step forward', group: 'Player' },
-  { command: 'back-5', keys: ['Shift+ArrowLeft'], label: 'Five steps back', group: 'Player' },
-  { command: 'forward-5', keys: ['Shift+ArrowRight'], label: 'Five steps forward', group: 'Player' },
-  { command: 'start', keys: ['Home'], label: 'To the start', group: 'Player' },
-  { command: 'end', keys: ['End'], label: 'To the end', group: 'Player' },
-  { command: 'previous-stop', keys: ['['], label: 'To the previous subgoal', group: 'Player' },
-  { command: 'next-stop', keys: [']'], label: 'To the next subgoal', group: 'Player' },
-  { command: 'slower', keys: ['-'], label: 'Slower', group: 'Player' },
-  { command: 'faster', keys: ['=', '+'], label: 'Faster', group: 'Player' },
+const player = (): readonly Binding[] => [
+  { command: 'play', keys: [' '], label: t('Play or pause'), group: t('Player'), once: true },
+  { command: 'back', keys: ['ArrowLeft', ','], label: t('One step back'), group: t('Player') },
+  { command: 'forward', keys: ['ArrowRight', '.'], label: t('One step forward'), group: t('Player') },
+  { command: 'back-5', keys: ['Shift+ArrowLeft'], label: t('Five steps back'), group: t('Player') },
+  { command: 'forward-5', keys: ['Shift+ArrowRight'], label: t('Five steps forward'), group: t('Player') },
+  { command: 'start', keys: ['Home'], label: t('To the start'), group: t('Player') },
+  { command: 'end', keys: ['End'], label: t('To the end'), group: t('Player') },
+  { command: 'previous-stop', keys: ['['], label: t('To the previous subgoal'), group: t('Player') },
+  { command: 'next-stop', keys: [']'], label: t('To the next subgoal'), group: t('Player') },
+  { command: 'slower', keys: ['-'], label: t('Slower'), group: t('Player') },
+  { command: 'faster', keys: ['=', '+'], label: t('Faster'), group: t('Player') },
 ];
 
 /** The binding that leaves the first practice, whatever it shows. */
-export const LEAVE: Binding = {
+export const leave = (): Binding => ({
   command: 'leave',
   keys: ['Escape'],
-  label: 'Skip the practice',
-  group: 'General',
+  label: t('Skip the practice'),
+  group: t('General'),
   once: true,
-};
+});
 
 /** The bindings of a view where a trajectory is only watched. */
-export const WATCH_BINDINGS: readonly Binding[] = [...PLAYER, ...COMMON_BINDINGS];
+export const watchBindings = (): readonly Binding[] => [...player(), ...commonBindings()];
 
-const REVIEW: readonly Binding[] = [
-  { command: 'next-answer', keys: ['j', 'ArrowDown'], label: 'Next answer, an older one', group: 'Review' },
+const review = (): readonly Binding[] => [
+  {
+    command: 'next-answer',
+    keys: ['j', 'ArrowDown'],
+    label: t('Next answer, an older one'),
+    group: t('Review'),
+  },
   {
     command: 'previous-answer',
     keys: ['k', 'ArrowUp'],
-    label: 'Previous answer, a newer one',
-    group: 'Review',
+    label: t('Previous answer, a newer one'),
+    group: t('Review'),
   },
-  { command: 'comment', keys: ['c'], label: 'Write a comment', group: 'Review', once: true },
+  { command: 'comment', keys: ['c'], label: t('Write a comment'), group: t('Review'), once: true },
   {
     command: 'send-back',
     keys: ['b'],
-    label: 'Send the answer back with the comment',
-    group: 'Review',
+    label: t('Send the answer back with the comment'),
+    group: t('Review'),
     once: true,
   },
 ];
 
-const ACCEPT: readonly Binding[] = [
+const accept = (): readonly Binding[] => [
   {
     command: 'accept',
     keys: ['Enter'],
-    label: "Keep the learner's choice; when nothing is left, send the answer",
-    group: 'Answer',
+    label: t("Keep the learner's choice; when nothing is left, send the answer"),
+    group: t('Answer'),
     once: true,
   },
   {
     command: 'accept-rest',
     keys: ['Shift+Enter'],
-    label: 'Keep all remaining choices of the learner and send the answer',
-    group: 'Answer',
+    label: t('Keep all remaining choices of the learner and send the answer'),
+    group: t('Answer'),
     once: true,
   },
-  { command: 'clear', keys: ['Backspace', 'Ctrl+z'], label: 'Undo the last label', group: 'Answer' },
+  { command: 'clear', keys: ['Backspace', 'Ctrl+z'], label: t('Undo the last label'), group: t('Answer') },
 ];
 
-const DEMO: readonly Binding[] = [
-  { command: 'send', keys: ['Shift+Enter'], label: 'Send the demonstration', group: 'Answer', once: true },
-  { command: 'clear', keys: ['Backspace', 'Ctrl+z'], label: 'Undo the last move', group: 'Answer' },
+const demo = (): readonly Binding[] => [
+  {
+    command: 'send',
+    keys: ['Shift+Enter'],
+    label: t('Send the demonstration'),
+    group: t('Answer'),
+    once: true,
+  },
+  { command: 'clear', keys: ['Backspace', 'Ctrl+z'], label: t('Undo the last move'), group: t('Answer') },
   {
     command: 'start-over',
     keys: ['Shift+Backspace'],
-    label: 'Start over; this can be undone',
-    group: 'Answer',
+    label: t('Start over; this can be undone'),
+    group: t('Answer'),
     once: true,
   },
 ];
 
 /** Look at the labels of an answer, one by one. */
-const LOOK: readonly Binding[] = [
-  { command: 'previous-segment', keys: ['ArrowUp'], label: 'Previous label', group: 'Answer' },
-  { command: 'next-segment', keys: ['ArrowDown'], label: 'Next label', group: 'Answer' },
+const look = (): readonly Binding[] => [
+  { command: 'previous-segment', keys: ['ArrowUp'], label: t('Previous label'), group: t('Answer') },
+  { command: 'next-segment', keys: ['ArrowDown'], label: t('Next label'), group: t('Answer') },
 ];
 
 function answerBindings(mode: Mode): readonly Binding[] {
@@ -196,48 +213,48 @@ function answerBindings(mode: Mode): readonly Binding[] {
     case 'inspect_full':
     case 'inspect_lo':
       return [
-        { command: 'pass', keys: ['y', 'p'], label: 'Yes, it worked', group: 'Answer', once: true },
-        { command: 'fail', keys: ['n', 'f'], label: 'No, it failed', group: 'Answer', once: true },
+        { command: 'pass', keys: ['y', 'p'], label: t('Yes, it worked'), group: t('Answer'), once: true },
+        { command: 'fail', keys: ['n', 'f'], label: t('No, it failed'), group: t('Answer'), once: true },
       ];
     case 'label_hi':
       return [
-        ...ACCEPT,
-        { command: 'previous-segment', keys: ['ArrowUp'], label: 'Previous segment', group: 'Answer' },
-        { command: 'next-segment', keys: ['ArrowDown'], label: 'Next segment', group: 'Answer' },
+        ...accept(),
+        { command: 'previous-segment', keys: ['ArrowUp'], label: t('Previous segment'), group: t('Answer') },
+        { command: 'next-segment', keys: ['ArrowDown'], label: t('Next segment'), group: t('Answer') },
       ];
     case 'label_lo':
       return [
-        ...ACCEPT,
+        ...accept(),
         {
           command: 'first-wrong',
           keys: ['x'],
-          label: 'First wrong step: all steps before it are right',
-          group: 'Answer',
+          label: t('First wrong step: all steps before it are right'),
+          group: t('Answer'),
           once: true,
         },
         {
           command: 'done',
           keys: ['d'],
-          label: 'Done here: the segment should end at this state',
-          group: 'Answer',
+          label: t('Done here: the segment should end at this state'),
+          group: t('Answer'),
           once: true,
         },
         {
           command: 'not-done',
           keys: ['n'],
-          label: 'Not done, even at the last state',
-          group: 'Answer',
+          label: t('Not done, even at the last state'),
+          group: t('Answer'),
           once: true,
         },
       ];
     case 'label_full':
       return [
-        ...ACCEPT,
+        ...accept(),
         {
           command: 'first-wrong',
           keys: ['x'],
-          label: 'First wrong step: all steps before it are right',
-          group: 'Answer',
+          label: t('First wrong step: all steps before it are right'),
+          group: t('Answer'),
           once: true,
         },
       ];
@@ -246,31 +263,45 @@ function answerBindings(mode: Mode): readonly Binding[] {
         {
           command: 'reached',
           keys: ['Enter', 'd'],
-          label: 'The subgoal is reached; after the episode, send the demonstration',
-          group: 'Answer',
+          label: t('The subgoal is reached; after the episode, send the demonstration'),
+          group: t('Answer'),
           once: true,
         },
-        ...DEMO,
+        ...demo(),
       ];
     case 'flat_demo':
-      return DEMO.map((one) => (one.command === 'send' ? { ...one, keys: ['Enter', ...one.keys] } : one));
+      return demo().map((one) => (one.command === 'send' ? { ...one, keys: ['Enter', ...one.keys] } : one));
     case 'waiting':
       return [];
     case 'feedback':
       return [
-        { command: 'accept', keys: ['Enter'], label: 'Next question', group: 'Answer', once: true },
-        { command: 'undo', keys: ['u'], label: 'Answer this question again', group: 'Answer', once: true },
-        ...LOOK,
+        { command: 'accept', keys: ['Enter'], label: t('Next question'), group: t('Answer'), once: true },
+        {
+          command: 'undo',
+          keys: ['u'],
+          label: t('Answer this question again'),
+          group: t('Answer'),
+          once: true,
+        },
+        ...look(),
       ];
     case 'example':
       return [
-        { command: 'accept', keys: ['Enter'], label: 'Now try one yourself', group: 'Answer', once: true },
-        ...LOOK,
+        {
+          command: 'accept',
+          keys: ['Enter'],
+          label: t('Now try one yourself'),
+          group: t('Answer'),
+          once: true,
+        },
+        ...look(),
       ];
     case 'review':
-      return REVIEW;
+      return review();
     case 'between':
-      return [{ command: 'accept', keys: ['Enter'], label: 'Start practicing', group: 'Answer', once: true }];
+      return [
+        { command: 'accept', keys: ['Enter'], label: t('Start practicing'), group: t('Answer'), once: true },
+      ];
   }
 }
 
@@ -318,7 +349,9 @@ function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
  */
 function namesToKeys(vocabulary: Vocabulary): Record<'subgoals' | 'actions', (string | undefined)[]> {
   const usedIn = (modes: readonly Mode[]): Set<string> =>
-    new Set([...modes.flatMap(answerBindings), UNDO, ...COMMON_BINDINGS].flatMap((binding) => binding.keys));
+    new Set(
+      [...modes.flatMap(answerBindings), undo(), ...commonBindings()].flatMap((binding) => binding.keys),
+    );
   const reserved = usedIn(OF_SUBGOALS);
   const initials = vocabulary.subgoals.map((name) => initial(name).toLowerCase());
   const subgoals = initials.map((letter) => {
@@ -342,5 +375,10 @@ function freeLetter(name: string, taken: ReadonlySet<string>): string | undefine
 }
 
 function choice(command: Command, name: string, keys: readonly (string | undefined)[]): Binding {
-  return { command, keys: keys.filter((one) => one !== undefined), label: readable(name), group: 'Answer' };
+  return {
+    command,
+    keys: keys.filter((one) => one !== undefined),
+    label: readable(name),
+    group: t('Answer'),
+  };
 }

@@ -1,5 +1,6 @@
 // Keys that a person has chosen instead of the default keys.
 import type { Vocabulary } from '../api/types';
+import { t } from '../language/language';
 import { printed } from './keys';
 import { bindingsFor, MODES, type Binding } from './registry';
 
@@ -38,14 +39,14 @@ export function refusal(
   keymap: Keymap,
   vocabulary: Vocabulary | null,
 ): string | null {
-  if (KEPT_KEYS.has(key)) return `${printed(key)} cannot be chosen. Press another key.`;
+  if (KEPT_KEYS.has(key)) return t(`${printed(key)} cannot be chosen. Press another key.`);
   const id = idOf(binding);
   const { [id]: _, ...others } = keymap;
   for (const mode of MODES) {
     const bindings = remapped(bindingsFor(mode, vocabulary), others);
     if (!bindings.some((one) => idOf(one) === id)) continue;
     const other = bindings.find((one) => idOf(one) !== id && one.keys.includes(key));
-    if (other) return `${printed(key)} already means “${other.label}”. Press another key.`;
+    if (other) return t(`${printed(key)} already means “${other.label}”. Press another key.`);
   }
   return null;
 }

@@ -1,24 +1,27 @@
 // The audit log in words, and the days that its filter takes.
 import type { AuditAction, AuditPage } from '../api/types';
+import { t } from '../language/language';
 
-/** What each action is called. */
-export const ACTIONS: Readonly<Record<AuditAction, string>> = {
-  login: 'logged in',
-  'login.refused': '✕ login refused',
-  logout: 'logged out',
-  'link.created': 'made a login link',
-  'permission.refused': '✕ not permitted',
-  'token.created': 'created a token',
-  'token.revoked': 'revoked a token',
-  'user.created': 'created a user',
-  'user.role_changed': 'changed a role',
-  'user.deactivated': 'deactivated a user',
-  'user.reactivated': 'reactivated a user',
-};
+/** Return what each action is called. */
+export function namesOfActions(): Readonly<Record<AuditAction, string>> {
+  return {
+    login: t('logged in'),
+    'login.refused': t('✕ login refused'),
+    logout: t('logged out'),
+    'link.created': t('made a login link'),
+    'permission.refused': t('✕ not permitted'),
+    'token.created': t('created a token'),
+    'token.revoked': t('revoked a token'),
+    'user.created': t('created a user'),
+    'user.role_changed': t('changed a role'),
+    'user.deactivated': t('deactivated a user'),
+    'user.reactivated': t('reactivated a user'),
+  };
+}
 
 /** Return an action by its name, or null if there is none of this name. */
 export function actionOf(text: string | null): AuditAction | null {
-  return text !== null && Object.hasOwn(ACTIONS, text) ? (text as AuditAction) : null;
+  return text !== null && Object.hasOwn(namesOfActions(), text) ? (text as AuditAction) : null;
 }
 
 /** Return the details of a row as text: name: ada, role: viewer. */

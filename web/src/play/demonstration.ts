@@ -1,6 +1,8 @@
 // A demonstration that is being played, as a list of moves. Pure: no function changes its arguments.
 import type { AnswerOf, AskOf, DemoSegment, Json, PlayStates, Price } from '../api/types';
+import { t } from '../language/language';
 import type { Stretch, Tape } from '../player/tape';
+import { count } from '../ui/format';
 
 /** A move of the annotator. A demonstration is a list of moves, so that each can be undone, including starting over. */
 export type Move =
@@ -69,22 +71,29 @@ export function obstacle(demonstration: Demonstration, ask: Ask, move: Move): st
   const parts = partsOf(demonstration);
   const under = parts.at(-1);
   const isUnderWay = under !== undefined && !under.reached;
-  if (move.does === 'restart') return parts.length === 0 ? 'No step is played yet.' : null;
-  if (demonstration.ended) return 'The episode is over. Send the demonstration, undo a step, or start over.';
+  if (move.does === 'restart') return parts.length === 0 ? t('No step is played yet.') : null;
+  if (demonstration.ended)
+    return t('The episode is over. Send the demonstration, undo a step, or start over.');
   switch (move.does) {
     case 'choose':
-      if (isUnderWay && under.actions.length > 0) return 'First press “Reached” for the last subgoal.';
+      if (isUnderWay && under.actions.length > 0) return t('First press “Reached” for the last subgoal.');
       if (!isUnderWay && parts.length >= ask.max_segments)
-        return `A demonstration has at most ${ask.max_segments} segments.`;
+        return count(ask.max_segments, [
+          'A demonstration has at most # segment.',
+          'A demonstration has at most # segments.',
+        ]);
       return null;
     case 'act':
-      if (!ask.flat && !isUnderWay) return 'Choose a subgoal first.';
+      if (!ask.flat && !isUnderWay) return t('Choose a subgoal first.');
       if (countActions(parts) >= ask.max_actions)
-        return `A demonstration has at most ${ask.max_actions} steps.`;
+        return count(ask.max_actions, [
+          'A demonstration has at most # step.',
+          'A demonstration has at most # steps.',
+        ]);
       return null;
     case 'reach':
-      if (!isUnderWay) return 'Choose the next subgoal, or send the demonstration.';
-      return under.actions.length === 0 ? 'A segment has at least one step.' : null;
+      if (!isUnderWay) return t('Choose the next subgoal, or send the demonstration.');
+      return under.actions.length === 0 ? t('A segment has at least one step.') : null;
   }
 }
 

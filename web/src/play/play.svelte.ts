@@ -2,6 +2,7 @@
 import { readable } from '../api/names';
 import type { AnswerOf, AskOf, PlayMoves, PlayStates, Price, Vocabulary } from '../api/types';
 import { bindingsFor, type Command } from '../keys/registry';
+import { t } from '../language/language';
 import type { Scene } from '../player/scene';
 import * as demos from './demonstration';
 import type { Demonstration, Move } from './demonstration';
@@ -113,7 +114,7 @@ export class Play {
 
   #make(move: Move): void {
     if (this.stage !== 'here' && move.does === 'act') {
-      this.hint = 'The learner’s environment is not connected, so a step cannot be carried out now.';
+      this.hint = t('The learner’s environment is not connected, so a step cannot be carried out now.');
       return;
     }
     const obstacle = demos.obstacle(this.demonstration, this.ask, move);
@@ -128,7 +129,7 @@ export class Play {
 
   #takeBack(): void {
     if (this.demonstration.moves.length === 0) {
-      this.hint = 'No step is played yet.';
+      this.hint = t('No step is played yet.');
       return;
     }
     this.#outdated = true;
@@ -142,9 +143,9 @@ export class Play {
   }
 
   #send(): void {
-    if (this.steps === 0) this.hint = 'No step is played yet.';
+    if (this.steps === 0) this.hint = t('No step is played yet.');
     else if (demos.isBehind(this.demonstration))
-      this.hint = 'The last steps are not carried out yet. Wait for the learner’s environment.';
+      this.hint = t('The last steps are not carried out yet. Wait for the learner’s environment.');
     else if (this.demonstration.succeeded) this.sendAnyway();
     else this.doubtful = true;
   }
@@ -185,10 +186,12 @@ export class Play {
 export function nextStep(play: Play): string {
   const { current, ask, steps } = play;
   if (ask.flat)
-    return steps === 0 ? 'Carry out the task, step by step.' : 'Continue until the task is accomplished.';
-  if (current === null) return steps === 0 ? 'Choose the first subgoal.' : 'Choose the next subgoal.';
+    return steps === 0
+      ? t('Carry out the task, step by step.')
+      : t('Continue until the task is accomplished.');
+  if (current === null) return steps === 0 ? t('Choose the first subgoal.') : t('Choose the next subgoal.');
   const subgoal = readable(current.subgoal ?? '');
   return current.actions.length === 0
-    ? `Move toward “${subgoal}”.`
-    : `Press “Reached” when “${subgoal}” is reached.`;
+    ? t(`Move toward “${subgoal}”.`)
+    : t(`Press “Reached” when “${subgoal}” is reached.`);
 }

@@ -1,5 +1,6 @@
 // The tape: the trajectory of a query as frames, one per state.
 import type { Json, Segment } from '../api/types';
+import { t } from '../language/language';
 import type { Player } from './player';
 
 /** A segment on the tape: the frames from `first` to `last`, both included. */
@@ -86,11 +87,11 @@ export function stops(tape: Tape): number[] {
 
 /** Return a frame in words: "step 12 of 40, action left, subgoal north". */
 export function describeFrame(tape: Tape, frame: number): string {
-  const parts = [`step ${frame} of ${lastFrame(tape)}`];
+  const parts = [t(`step ${frame} of ${lastFrame(tape)}`)];
   const action = actionAt(tape, frame);
-  if (action !== null) parts.push(`action ${action}`);
+  if (action !== null) parts.push(t(`action ${action}`));
   const subgoal = stretchAt(tape, frame)?.subgoal;
-  if (subgoal) parts.push(`subgoal ${subgoal}`);
+  if (subgoal) parts.push(t(`subgoal ${subgoal}`));
   return parts.join(', ');
 }
 

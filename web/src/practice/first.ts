@@ -1,5 +1,6 @@
 // The first practice: it comes once per person, before the first question of a run.
 import type { AnswerableKind, Me, Outlook, Practice } from '../api/types';
+import { t } from '../language/language';
 
 const KEY = 'waypost.practiced.';
 
@@ -35,13 +36,17 @@ export function firstQueries(practice: Practice, outlook: Outlook): Practice['qu
   });
 }
 
-/** How each kind of question is answered, beside a worked example. */
-export const HOW: Readonly<Record<AnswerableKind, string>> = {
-  inspect_full: 'Watch the path to its end. Answer yes if the task is done there.',
-  inspect_lo: 'Only the last, bright segment counts. Answer yes if it did what it tried.',
-  label_hi:
-    'For each segment, choose the subgoal that was right where the segment begins. Keep each right choice.',
-  label_lo:
-    'For each step, choose the action that was right. Keep each right one. Say where the segment should have ended.',
-  label_full: 'For each step, choose the action that was right. Keep each right one.',
-};
+/** Return how each kind of question is answered, beside a worked example. */
+export function how(): Readonly<Record<AnswerableKind, string>> {
+  return {
+    inspect_full: t('Watch the path to its end. Answer yes if the task is done there.'),
+    inspect_lo: t('Only the last, bright segment counts. Answer yes if it did what it tried.'),
+    label_hi: t(
+      'For each segment, choose the subgoal that was right where the segment begins. Keep each right choice.',
+    ),
+    label_lo: t(
+      'For each step, choose the action that was right. Keep each right one. Say where the segment should have ended.',
+    ),
+    label_full: t('For each step, choose the action that was right. Keep each right one.'),
+  };
+}

@@ -1,7 +1,9 @@
 // The feedback in words, and the places on the map that it is about.
 import { readable } from '../api/names';
 import type { Answerable, Feedback } from '../api/types';
+import { t } from '../language/language';
 import { askedFrames, lastFrame, type Tape } from '../player/tape';
+import { either } from '../ui/format';
 
 export type Mark = Feedback['marks'][number];
 
@@ -14,22 +16,22 @@ export function frameOf(ask: Answerable, tape: Tape, mark: Mark): number {
 
 /** Return what a label is about: "Segment 2", "State 5". */
 export function placeOf(ask: Answerable, mark: Mark): string {
-  if (ask.kind === 'inspect_full' || ask.kind === 'inspect_lo') return 'Answer';
-  return `${ask.kind === 'label_hi' ? 'Segment' : 'State'} ${mark.place + 1}`;
+  if (ask.kind === 'inspect_full' || ask.kind === 'inspect_lo') return t('Answer');
+  return ask.kind === 'label_hi' ? t(`Segment ${mark.place + 1}`) : t(`State ${mark.place + 1}`);
 }
 
 /** Return a label in words; the end of a segment is a label too. */
 export function labelWords(label: string | null): string {
-  if (label === null) return 'nothing';
-  if (label === '(done)') return 'done here';
-  if (label === '(not done)') return 'not done';
-  if (label === 'pass') return 'yes, it worked';
-  if (label === 'fail') return 'no, it failed';
+  if (label === null) return t('nothing');
+  if (label === '(done)') return t('done here');
+  if (label === '(not done)') return t('not done');
+  if (label === 'pass') return t('yes, it worked');
+  if (label === 'fail') return t('no, it failed');
   return readable(label);
 }
 
 export function choicesWords(right: readonly string[]): string {
-  return right.map(labelWords).join(' or ');
+  return either(right.map(labelWords));
 }
 
 /** Return the index of the first wrong label; 0 if all are right. */
@@ -43,6 +45,6 @@ export function firstToSee(marks: readonly Mark[]): number {
 /** Return the result in words: "Right", "2 of 5 right". */
 export function verdictWords(marks: readonly Mark[]): string {
   const right = marks.filter((mark) => mark.is_right).length;
-  if (right === marks.length) return 'Right';
-  return marks.length === 1 ? 'Not right' : `${right} of ${marks.length} right`;
+  if (right === marks.length) return t('Right');
+  return marks.length === 1 ? t('Not right') : t(`${right} of ${marks.length} right`);
 }

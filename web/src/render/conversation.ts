@@ -1,6 +1,7 @@
 // Conversations: states whose view has a list of turns, or a text.
 import { readable } from '../api/names';
 import type { Json } from '../api/types';
+import { t } from '../language/language';
 
 /** One utterance. The speaker is null if the state does not say who spoke. */
 export interface Turn {
@@ -66,7 +67,7 @@ function rows(parts: Readonly<Record<string, Json>>): (readonly [string, string]
 /** Return a value in words: "city Rome, day Friday" for an object, "—" for what is empty. */
 function words(value: Json): string {
   if (value === null || value === '') return '—';
-  if (typeof value === 'boolean') return value ? 'yes' : 'no';
+  if (typeof value === 'boolean') return value ? t('yes') : t('no');
   if (Array.isArray(value)) return value.map(words).join(', ') || '—';
   if (typeof value === 'string') return value;
   if (!isObject(value)) return JSON.stringify(value);

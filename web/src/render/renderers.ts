@@ -1,5 +1,6 @@
 // The renderers, by the name in the vocabulary of a run. A new renderer is added here.
 import type { Component } from 'svelte';
+import { t } from '../language/language';
 import MazeView from './maze/MazeView.svelte';
 import { stepMaze } from './maze/steps';
 import PictureView from './PictureView.svelte';
@@ -22,14 +23,13 @@ export function stepOf(name: string): Step | null {
   return Object.hasOwn(STEPS, name) ? (STEPS[name] ?? null) : null;
 }
 
-/** What the marks of a renderer's own picture mean. */
-const LEGENDS: Readonly<Record<string, string>> = {
-  maze: 'On the map, the ring is the target and the dot is the agent. A number with a letter marks the state where a subgoal was chosen. Segments that the question is not about are faint. A bar with two posts is a door. Click the path to go there. Where subgoals are asked for, click a door or the target to choose one for the segment. Where labels are asked for, drag along the right way to label all states or segments on it.',
-};
-const LEGEND_OF_PICTURES =
-  'Under the picture are the states where a subgoal was chosen. Click one to go there. Segments that the question is not about are dashed.';
-
 /** Return what the marks on a domain's pictures mean. */
 export function legendOf(name: string): string {
-  return Object.hasOwn(LEGENDS, name) ? (LEGENDS[name] ?? '') : LEGEND_OF_PICTURES;
+  return rendererOf(name) === MazeView
+    ? t(
+        'On the map, the ring is the target and the dot is the agent. A number with a letter marks the state where a subgoal was chosen. Segments that the question is not about are faint. A bar with two posts is a door. Click the path to go there. Where subgoals are asked for, click a door or the target to choose one for the segment. Where labels are asked for, drag along the right way to label all states or segments on it.',
+      )
+    : t(
+        'Under the picture are the states where a subgoal was chosen. Click one to go there. Segments that the question is not about are dashed.',
+      );
 }

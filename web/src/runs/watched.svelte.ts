@@ -1,5 +1,5 @@
 // A run that is kept up to date while it is on the screen.
-import { api, Refused, TRYING_AGAIN, unwrap, wordsOf } from '../api/client';
+import { api, Refused, tryingAgain, unwrap, wordsOf } from '../api/client';
 import type { Costs, Curves, Run } from '../api/types';
 import { updatedCurves } from './curves/curves';
 import { throttled, watch, type RunEvent } from '../api/live';
@@ -76,7 +76,7 @@ export class WatchedRun {
     } catch (error) {
       for (const part of stale) this.#stale.add(part);
       this.isMissing = error instanceof Refused && error.status === 404;
-      this.problem = wordsOf(error, TRYING_AGAIN);
+      this.problem = wordsOf(error, tryingAgain());
     }
   }
 

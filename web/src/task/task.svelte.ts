@@ -1,7 +1,8 @@
 // The state of one query on the screen, and what every key does.
 import type { Answer, Answerable, Vocabulary } from '../api/types';
 import { bindingsFor, type Command } from '../keys/registry';
-import { answerOf, choose, chooseAll, EDITS, HINTS, moveTo, newLabels, type Labels } from './labels/labels';
+import { t } from '../language/language';
+import { answerOf, choose, chooseAll, EDITS, hintOf, moveTo, newLabels, type Labels } from './labels/labels';
 import type { HiLabels } from './labels/hi';
 import { markFirstWrong, type LoLabels } from './labels/lo';
 import { MOVES } from '../player/commands';
@@ -98,7 +99,7 @@ export class Task {
     else if (command === 'skip' || command === 'undo') this.#events[command]();
     else if (command === 'accept' && this.answer) this.#events.submit(this.answer);
     else if (command.startsWith('choose:')) this.#choose(Number(command.slice('choose:'.length)));
-    else if (edit) this.#edit(edit, HINTS[command]);
+    else if (edit) this.#edit(edit, hintOf(command));
     if (command === 'accept-rest') this.#submitAll();
   }
 
@@ -108,7 +109,7 @@ export class Task {
   }
 
   #choose(index: number): void {
-    this.#edit((labels) => choose(labels, index, this.#options.vocabulary), HINTS.choose);
+    this.#edit((labels) => choose(labels, index, this.#options.vocabulary), hintOf('choose'));
   }
 
   #labeling(): Labeling | null {
@@ -129,12 +130,12 @@ export class Task {
     const places = this.ask.kind === 'label_hi' ? asked : this.#frames;
     const named = choices.map(({ frame, name }) => [places.indexOf(frame), name] as const);
     const next = end === null ? null : places.indexOf(end);
-    this.#edit((labels) => chooseAll(labels, named, next), HINTS.draw);
+    this.#edit((labels) => chooseAll(labels, named, next), hintOf('draw'));
   }
 
   #submitAll(): void {
     if (this.answer) this.#events.submit(this.answer);
-    else this.hint = 'A label is missing here, and the learner made no choice to keep. Choose one.';
+    else this.hint = t('A label is missing here, and the learner made no choice to keep. Choose one.');
   }
 
   #edit(change: (labels: Labels) => Labels, hint = ''): void {

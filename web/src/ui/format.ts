@@ -1,6 +1,8 @@
-// Numbers, times and counts as text.
-const NUMBER = new Intl.NumberFormat('en', { maximumFractionDigits: 2 });
-const PERCENT = new Intl.NumberFormat('en', { style: 'percent', maximumFractionDigits: 1 });
+// Numbers, times, counts and lists as text, in the page's language and as its region writes them.
+import { locale, t } from '../language/language';
+
+const NUMBER = new Intl.NumberFormat(locale, { maximumFractionDigits: 2 });
+const PERCENT = new Intl.NumberFormat(locale, { style: 'percent', maximumFractionDigits: 1 });
 
 /** Return a number as text: 1,420. */
 export function number(value: number): string {
@@ -14,41 +16,62 @@ export function percent(value: number | null): string {
 
 /** Return an amount in units: 1 unit, 12 units. */
 export function units(value: number): string {
-  return count(value, 'unit');
+  return count(value, ['# unit', '# units']);
 }
 
-/** Return a number with its noun: 1 answer, 2 answers. */
-export function count(value: number, noun: string, nouns = `${noun}s`): string {
-  return `${number(value)} ${value === 1 ? noun : nouns}`;
+/**
+ * Return the form that belongs to a number, with the number for `#`: for 2 and '# answers', 2 answers.
+ * The build puts the forms of the page's language in their place, and the function that chooses one of them.
+ */
+export function count(
+  value: number,
+  forms: readonly string[],
+  choose = (amount: number): number => (amount === 1 ? 0 : 1),
+): string {
+  return (forms[choose(value)] ?? '').replaceAll('#', number(value));
 }
 
 /** Return a duration in seconds as text: 3.1 s, 4 min, 2 h 5 min. */
 export function seconds(value: number): string {
-  if (value < 60) return `${NUMBER.format(Math.round(value * 10) / 10)} s`;
+  if (value < 60) return t(`${number(Math.round(value * 10) / 10)} s`);
   const minutes = Math.round(value / 60);
-  if (minutes < 60) return `${minutes} min`;
-  return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+  if (minutes < 60) return t(`${minutes} min`);
+  return t(`${Math.floor(minutes / 60)} h ${minutes % 60} min`);
 }
 
 /** Return how long ago a time was: just now, 5 min ago, 3 h ago, 2 d ago. */
 export function ago(then: number, now: number): string {
   const passed = now - then;
-  if (passed < 60) return 'just now';
-  if (passed < 3_600) return `${Math.floor(passed / 60)} min ago`;
-  if (passed < 86_400) return `${Math.floor(passed / 3_600)} h ago`;
-  return `${Math.floor(passed / 86_400)} d ago`;
+  if (passed < 60) return t('just now');
+  if (passed < 3_600) return t(`${Math.floor(passed / 60)} min ago`);
+  if (passed < 86_400) return t(`${Math.floor(passed / 3_600)} h ago`);
+  return count(Math.floor(passed / 86_400), ['# d ago', '# d ago']);
 }
 
-const DAY = new Intl.DateTimeFormat('en-GB', { dateStyle: 'medium' });
+const DAY = new Intl.DateTimeFormat(locale, { dateStyle: 'medium' });
 
 /** Return the day of a time: 3 Mar 2026. */
 export function day(at: number): string {
   return DAY.format(at * 1000);
 }
 
-const CLOCK = new Intl.DateTimeFormat('en-GB', { dateStyle: 'medium', timeStyle: 'medium' });
+const CLOCK = new Intl.DateTimeFormat(locale, { dateStyle: 'medium', timeStyle: 'medium' });
 
 /** Return a time as text: 3 Mar 2026, 14:05:09. */
 export function moment(at: number): string {
   return CLOCK.format(at * 1000);
+}
+
+const ALTERNATIVES = new Intl.ListFormat(locale, { type: 'disjunction' });
+
+/** Return alternatives as text: north, east or south. */
+export function either(names: readonly string[]): string {
+  return ALTERNATIVES.format(names);
+}
+
+const ENUMERATION = new Intl.ListFormat(locale, { type: 'unit', style: 'short' });
+
+/** Return names one after another: north, east, south. */
+export function listed(names: readonly string[]): string {
+  return ENUMERATION.format(names);
 }

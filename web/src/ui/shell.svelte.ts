@@ -1,13 +1,13 @@
 // The state that all views share: who is signed in, which keys work, how many answers are unsaved.
 import { api, unwrap } from '../api/client';
 import type { Me, Vocabulary } from '../api/types';
-import { COMMON_BINDINGS, type Binding, type Command } from '../keys/registry';
+import { commonBindings, type Binding, type Command } from '../keys/registry';
 import { loadKeymap, remapped, saveKeymap, type Keymap } from '../keys/remap';
 
 class Shell {
   keymap: Keymap = $state.raw(loadKeymap(localStorage));
-  #given: readonly Binding[] = $state.raw(COMMON_BINDINGS);
-  readonly bindings: readonly Binding[] = $derived(remapped(this.#given, this.keymap));
+  #given: readonly Binding[] | null = $state.raw(null); // null: those of every view
+  readonly bindings: readonly Binding[] = $derived(remapped(this.#given ?? commonBindings(), this.keymap));
   unsaved = $state(0);
   unsavedAreKept = $state(true); // in the tab's storage; if not, they are lost when the tab closes
   me: Me | null = $state.raw(null);
@@ -32,7 +32,7 @@ class Shell {
     this.#run = run;
     return () => {
       if (this.#run !== run) return;
-      this.#given = COMMON_BINDINGS;
+      this.#given = null;
       this.#run = null;
     };
   }

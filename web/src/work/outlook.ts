@@ -1,5 +1,6 @@
 // What an annotator can expect, in words: what the learner does, how long that usually takes, what is left to answer.
 import type { RunOutlook } from '../api/types';
+import { t } from '../language/language';
 import { number, seconds } from '../ui/format';
 
 /** After so many times its usual time, or at least so many seconds, a learner that says nothing may have stopped. */
@@ -7,26 +8,30 @@ const LONG = { times: 10, seconds: 600 };
 
 /** Return how many questions are open. The server counts in tens, so that no gold query can be noticed. */
 export function openWords(open: number): string {
-  if (open === 0) return 'no question is open';
-  return open <= 10 ? 'up to 10 questions are open' : `about ${number(open)} questions are open`;
+  if (open === 0) return t('no question is open');
+  return open <= 10 ? t('up to 10 questions are open') : t(`about ${number(open)} questions are open`);
 }
 
-const DOING: Readonly<Record<RunOutlook['doing'], string>> = {
-  asking:
-    'The learner waits for answers to questions that others have now, or that you skipped or leave to others.',
-  training: 'The learner is training on the answers.',
-  rolling_out: 'The learner is trying its task, until it has something to ask.',
-  paused: 'The run is paused. The learner asks again when somebody resumes it.',
-  finished: 'The run is finished. Its learner asks nothing more.',
-};
+function doing(): Readonly<Record<RunOutlook['doing'], string>> {
+  return {
+    asking: t(
+      'The learner waits for answers to questions that others have now, or that you skipped or leave to others.',
+    ),
+    training: t('The learner is training on the answers.'),
+    rolling_out: t('The learner is trying its task, until it has something to ask.'),
+    paused: t('The run is paused. The learner asks again when somebody resumes it.'),
+    finished: t('The run is finished. Its learner asks nothing more.'),
+  };
+}
 
 /** Return what the learner of a run does, and how long it usually takes until its next question. */
 export function doingWords(run: RunOutlook): string[] {
-  const words = [DOING[run.doing]];
+  const words = [doing()[run.doing]];
   if (run.doing !== 'training' && run.doing !== 'rolling_out') return words;
   const usual = run.usual_seconds;
-  if (usual !== null) words.push(`Its next question usually comes ${seconds(usual)} after the last answer.`);
+  if (usual !== null)
+    words.push(t(`Its next question usually comes ${seconds(usual)} after the last answer.`));
   if (run.seconds > Math.max(LONG.seconds, LONG.times * (usual ?? 0)))
-    words.push(`It has reported nothing for ${seconds(run.seconds)}, so it may have stopped.`);
+    words.push(t(`It has reported nothing for ${seconds(run.seconds)}, so it may have stopped.`));
   return words;
 }

@@ -1,4 +1,5 @@
 // One annotator at work: leases queries, keeps the leases, sends the answers.
+import { t } from '../language/language';
 import type { AnswerSender } from './answers/sender';
 import type { PendingAnswer } from './answers/outbox';
 import { isAborted, Refused, Unreachable, wordsOf } from '../api/client';
@@ -115,12 +116,12 @@ export class WorkSession {
     this.phase = 'sending';
     try {
       await this.#server.release(proofOf(skipped), reason, true);
-      this.notice = { tone: 'info', text: 'Skipped. You will not be asked it again.' };
+      this.notice = { tone: 'info', text: t('Skipped. You will not be asked it again.') };
     } catch (error) {
       if (error instanceof Unreachable) {
         this.phase = 'task';
         this.#warn(
-          'The server cannot be reached, so the question is not skipped yet. Try again in a moment.',
+          t('The server cannot be reached, so the question is not skipped yet. Try again in a moment.'),
         );
         return;
       }
@@ -134,7 +135,7 @@ export class WorkSession {
     await this.#sending;
     const last = this.#sent.at(-1);
     if (last === undefined) {
-      this.notice = { tone: 'info', text: 'There is no answer to take back yet.' };
+      this.notice = { tone: 'info', text: t('There is no answer to take back yet.') };
       return;
     }
     if (this.#sender.unsent().includes(last.assignment)) {
@@ -146,9 +147,9 @@ export class WorkSession {
       this.#sent = this.#sent.slice(0, -1);
       this.#postpone();
       this.#show(assignment);
-      this.notice = { tone: 'info', text: 'Taken back. Answer it again.' };
+      this.notice = { tone: 'info', text: t('Taken back. Answer it again.') };
     } catch (error) {
-      this.#warn(wordsOf(error), error instanceof Refused ? UNDO_REFUSED[error.name] : undefined);
+      this.#warn(wordsOf(error), error instanceof Refused ? undoRefused()[error.name] : undefined);
     }
   }
 
@@ -295,7 +296,9 @@ export class WorkSession {
   lose(): void {
     if (this.phase !== 'task') return;
     this.#forget();
-    this.#warn('You were away for a while, so that question went back to the queue. The next one is here.');
+    this.#warn(
+      t('You were away for a while, so that question went back to the queue. The next one is here.'),
+    );
     this.#goOn();
     this.#heartbeat.now(); // the leases ahead may be lost too
   }
@@ -377,16 +380,21 @@ function followsUp({ query }: Assignment, shown: Assignment | null): boolean {
   return shown !== null && query.run === shown.query.run && query.ask.episode === shown.query.ask.episode;
 }
 
-const UNDO_REFUSED: Readonly<Record<string, string>> = {
-  'answer-used': 'The learner has already used that answer, so it can no longer be taken back.',
-  'run-finished': 'That run is finished, so its answers can no longer be taken back.',
-};
+/** Return why an answer cannot be taken back, by the name of the refusal. */
+function undoRefused(): Readonly<Record<string, string>> {
+  return {
+    'answer-used': t('The learner has already used that answer, so it can no longer be taken back.'),
+    'run-finished': t('That run is finished, so its answers can no longer be taken back.'),
+  };
+}
 
 function refusalWords(reason: Refused): string {
   if (reason.name === 'lease-expired') {
-    return 'That answer came too late: the question had gone back to the queue. It is kept, but it does not count.';
+    return t(
+      'That answer came too late: the question had gone back to the queue. It is kept, but it does not count.',
+    );
   }
-  return `The server did not accept that answer: ${reason.message}`;
+  return t(`The server did not accept that answer: ${reason.message}`);
 }
 
 /** Return a unique name that begins with a word. */

@@ -178,7 +178,7 @@ function drawMarker(brush: Brush, picture: Picture, stretch: Stretch): void {
   const text = `${stretch.index + 1}${initial(stretch.subgoal)}`;
   const isCurrent = scene.current === stretch.index;
   const letters = Math.max(Math.round(unit * 0.34), LEAST_TEXT);
-  brush.font = `700 ${letters}px system-ui, sans-serif`;
+  brush.font = fontOf(letters);
   const width = Math.max(unit * 0.56, brush.measureText(text).width + letters * 0.5);
   const height = letters * 1.4;
   brush.globalAlpha = stretch.asked ? 1 : 0.55;
@@ -236,7 +236,7 @@ function drawPlace(brush: Brush, picture: Picture, { subgoal, cell }: Place): vo
   brush.strokeStyle = color;
   brush.lineWidth = Math.max(unit * 0.09, 2);
   brush.stroke();
-  brush.font = `700 ${Math.max(Math.round(unit * 0.45), LEAST_TEXT + 2)}px system-ui, sans-serif`;
+  brush.font = fontOf(Math.max(Math.round(unit * 0.45), LEAST_TEXT + 2));
   brush.fillStyle = isChosen ? palette.map['marker-text'] : color;
   brush.textAlign = 'center';
   brush.textBaseline = 'middle';
@@ -293,6 +293,11 @@ function cellAt({ scene }: Picture, frame: number): Cell | null {
 function centre(picture: Picture, cell: Cell, offset: number): [x: number, y: number] {
   const unit = unitOf(picture);
   return [(cell[1] + 0.5 + offset) * unit, (cell[0] + 0.5 + offset) * unit];
+}
+
+function fontOf(pixels: number): string {
+  // eslint-disable-next-line waypost/untranslated -- a font
+  return `700 ${pixels}px system-ui, sans-serif`;
 }
 
 function unitOf({ maze, size }: Picture): number {

@@ -1,5 +1,6 @@
 // The geometry of a maze: its cells, rooms, doors and lava.
 import type { Json } from '../../api/types';
+import { t } from '../../language/language';
 
 export type Cell = readonly [row: number, column: number];
 
@@ -61,17 +62,17 @@ export function isDoor(maze: Maze, cell: Cell): boolean {
 
 /** Return in words where a cell is. */
 export function describeCell(maze: Maze, cell: Cell): string {
-  if (sameCell(cell, maze.goal)) return 'on the target';
-  if (isLava(maze, cell)) return 'in lava';
-  if (isDoor(maze, cell)) return `in a door at row ${cell[0]}, column ${cell[1]}`;
+  if (sameCell(cell, maze.goal)) return t('on the target');
+  if (isLava(maze, cell)) return t('in lava');
+  if (isDoor(maze, cell)) return t(`in a door at row ${cell[0]}, column ${cell[1]}`);
   const [row, column] = [Math.ceil(cell[0] / ROOM_PITCH), Math.ceil(cell[1] / ROOM_PITCH)];
-  return `in room ${row}–${column}`;
+  return t(`in room ${row}–${column}`);
 }
 
 /** Return a name of the room of a cell; a cell of a wall line is a place of its own. */
 export function placeName(cell: Cell): string {
   if (isWallLine(cell)) return cell.join();
-  return `room ${cell.map((one) => Math.ceil(one / ROOM_PITCH)).join()}`;
+  return `room:${cell.map((one) => Math.ceil(one / ROOM_PITCH)).join()}`;
 }
 
 /** Return the action that makes a step. */

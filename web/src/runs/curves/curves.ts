@@ -3,6 +3,7 @@ import { api, unwrap } from '../../api/client';
 import { KIND_NAMES } from '../../api/names';
 import { KINDS, type Curves, type Kind } from '../../api/types';
 import { markOf, type Series } from '../../charts/chart';
+import { t } from '../../language/language';
 import { number, seconds } from '../../ui/format';
 
 /** The mark of each kind, the same in every chart. */
@@ -17,23 +18,30 @@ const KIND_MARKS: Readonly<Record<Kind, number>> = {
 
 /** A quantity for the x axis. */
 export interface XAxis {
-  readonly name: string; // of the axis
-  readonly short: string;
   readonly of: (curves: Curves) => readonly number[];
   readonly format: (value: number) => string;
 }
 export type XAxisName = 'episode' | 'cost' | 'lo-cost' | 'seconds';
 export const X_AXES: Readonly<Record<XAxisName, XAxis>> = {
-  episode: { name: 'episode', short: 'Episodes', of: (curves) => curves.episode, format: number },
-  cost: { name: 'total cost, units', short: 'Total cost', of: (curves) => curves.cost, format: number },
-  'lo-cost': { name: 'LO cost, units', short: 'LO cost', of: (curves) => curves.lo_cost, format: number },
-  seconds: {
-    name: 'annotators’ time',
-    short: 'Annotators’ time',
-    of: (curves) => curves.seconds,
-    format: seconds,
-  },
+  episode: { of: (curves) => curves.episode, format: number },
+  cost: { of: (curves) => curves.cost, format: number },
+  'lo-cost': { of: (curves) => curves.lo_cost, format: number },
+  seconds: { of: (curves) => curves.seconds, format: seconds },
 };
+
+/** Return what a quantity is called: at its axis, and where it is chosen. */
+export function namesOfAxis(name: XAxisName): Readonly<Record<'axis' | 'choice', string>> {
+  switch (name) {
+    case 'episode':
+      return { axis: t('episode'), choice: t('Episodes') };
+    case 'cost':
+      return { axis: t('total cost, units'), choice: t('Total cost') };
+    case 'lo-cost':
+      return { axis: t('LO cost, units'), choice: t('LO cost') };
+    case 'seconds':
+      return { axis: t('annotators’ time'), choice: t('Annotators’ time') };
+  }
+}
 
 export function xAxisOf(name: string | null): XAxisName {
   return name !== null && Object.hasOwn(X_AXES, name) ? (name as XAxisName) : 'episode';
@@ -45,7 +53,7 @@ export function successOf(curves: Curves, xAxis: XAxisName): Series[] {
   if (!curves.success_rate.some((rate) => rate !== null)) return [];
   return [
     {
-      label: 'Success',
+      label: t('Success'),
       mark: { color: 'accent', dash: '', marker: 'circle' },
       x,
       y: curves.success_rate,

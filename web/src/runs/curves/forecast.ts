@@ -1,6 +1,7 @@
 // The forecast of a run in words, and as a part of its chart.
 import type { Forecast, ForecastRange, Run } from '../../api/types';
 import type { Goal } from '../../charts/chart';
+import { t } from '../../language/language';
 import { count, number, percent, seconds, units } from '../../ui/format';
 import type { XAxisName } from './curves';
 
@@ -17,12 +18,15 @@ export function sentencesOf(forecast: Forecast, run: Run): string[] {
   const { reached, too_early, more_units, more_seconds } = forecast;
   if (reached) {
     return [
-      `${target} of tests succeeded after ${units(reached.cost)}, in episode ${number(reached.episode)}.`,
+      t(`${target} of tests succeeded after ${units(reached.cost)}, in episode ${number(reached.episode)}.`),
     ];
   }
   const ended =
-    run.state === 'finished' ? [`The run ended before ${target} of tests succeeded. If it had gone on:`] : [];
-  if (too_early !== null) return [...ended, `Too early to say when ${target} of tests succeed. ${too_early}`];
+    run.state === 'finished'
+      ? [t(`The run ended before ${target} of tests succeeded. If it had gone on:`)]
+      : [];
+  if (too_early !== null)
+    return [...ended, t(`Too early to say when ${target} of tests succeed. ${too_early}`)];
   if (more_units === null) return ended;
   return [
     ...ended,
@@ -33,45 +37,51 @@ export function sentencesOf(forecast: Forecast, run: Run): string[] {
 }
 
 function unitsLeft({ low, median, high }: ForecastRange, missed: number, target: string): string {
-  const never = `In ${percent(Math.round(missed * 100) / 100)} of the possible futures it never gets there.`;
-  if (low === null) return `${target} of tests will probably never succeed. ${never}`;
+  const share = percent(Math.round(missed * 100) / 100);
+  const never = t(`In ${share} of the possible futures it never gets there.`);
+  if (low === null) return t(`${target} of tests will probably never succeed. ${never}`);
+  const [least, most] = [number(rough(low)), high === null ? null : number(rough(high))];
   if (median === null) {
-    return `At least ${number(rough(low))} more ${noun(low)} until ${target} of tests succeed, if ever. ${never}`;
+    const more = count(rough(low), ['At least # more unit', 'At least # more units']);
+    return t(`${more} until ${target} of tests succeed, if ever. ${never}`);
   }
-  const about = `About ${number(rough(median))} more ${noun(median)}`;
-  if (high === null)
-    return `${about} (${number(rough(low))} or more) until ${target} of tests succeed. ${never}`;
-  return `${about} (${number(rough(low))} to ${number(rough(high))}) until ${target} of tests succeed.`;
+  const about = count(rough(median), ['About # more unit', 'About # more units']);
+  if (most === null) return t(`${about} (${least} or more) until ${target} of tests succeed. ${never}`);
+  return t(`${about} (${least} to ${most}) until ${target} of tests succeed.`);
 }
 
 function timeLeft({ low, median, high }: ForecastRange): string {
-  const range = high === null ? `${seconds(low ?? 0)} or more` : `${seconds(low ?? 0)} to ${seconds(high)}`;
-  return `For the annotators, this is ${seconds(median ?? 0)} of work (${range}).`;
+  const least = seconds(low ?? 0);
+  const range = high === null ? t(`${least} or more`) : t(`${least} to ${seconds(high)}`);
+  return t(`For the annotators, this is ${seconds(median ?? 0)} of work (${range}).`);
 }
 
 function budgetLeft({ budget, spent }: Run, { high }: ForecastRange): string[] {
   if (budget === null || (high !== null && high <= budget - spent)) return [];
-  return [`The budget leaves ${units(budget - spent)}.`];
+  return [t(`The budget leaves ${units(budget - spent)}.`)];
 }
 
 /** Return what a forecast was made from. */
 export function sourcesOf({ more_units, same_configuration, other_configurations }: Forecast): string | null {
   if (more_units === null) return null;
-  const others =
-    other_configurations > 0
-      ? ` and ${count(other_configurations, 'other')} of its domain and algorithm`
-      : '';
-  const finished =
-    same_configuration + other_configurations === 0
-      ? ''
-      : `, ${count(same_configuration, 'finished run')} with the same configuration${others}`;
-  return `From this run’s own curve${finished}. In brackets: the middle 80% of the possible futures.`;
+  const brackets = t(`In brackets: the middle ${percent(0.8)} of the possible futures.`);
+  if (same_configuration + other_configurations === 0) return t(`From this run’s own curve. ${brackets}`);
+  const same = count(same_configuration, [
+    '# finished run with the same configuration',
+    '# finished runs with the same configuration',
+  ]);
+  if (other_configurations === 0) return t(`From this run’s own curve, ${same}. ${brackets}`);
+  const others = count(other_configurations, [
+    '# other of its domain and algorithm',
+    '# others of its domain and algorithm',
+  ]);
+  return t(`From this run’s own curve, ${same} and ${others}. ${brackets}`);
 }
 
 /** Return the goal to draw against units; against anything else, only the line of the target. */
 export function goalOf(forecast: Forecast, spent: number, xAxis: XAxisName): Goal {
   const y = Number(forecast.target);
-  const label = `target ${percent(y)}`;
+  const label = t(`target ${percent(y)}`);
   const { low, median, high } = forecast.more_units ?? { low: null, median: null, high: null };
   if (xAxis !== 'cost' || low === null) return { y, label, span: null };
   // A long way off would leave no room for the curve itself.
@@ -79,11 +89,11 @@ export function goalOf(forecast: Forecast, spent: number, xAxis: XAxisName): Goa
   const to = high === null ? most : Math.min(spent + high, most);
   const isCut = high === null || spent + high > most;
   const middle = median === null ? null : spent + median;
-  return { y, label, span: { from: spent + low, to, middle, label: isCut ? 'forecast →' : 'forecast' } };
-}
-
-function noun(amount: number): string {
-  return rough(amount) === 1 ? 'unit' : 'units';
+  return {
+    y,
+    label,
+    span: { from: spent + low, to, middle, label: isCut ? t('forecast →') : t('forecast') },
+  };
 }
 
 /** Return a number with two digits that count. */

@@ -1,6 +1,7 @@
 // Several runs in one chart: groups that differ only by seed, their median and range.
 import type { Curves, Run } from '../../api/types';
 import { settingsOf } from '../../api/configuration';
+import { t } from '../../language/language';
 import { X_AXES, type XAxisName } from './curves';
 
 /** Runs that differ only by seed. */
@@ -23,8 +24,8 @@ export function grouped(runs: readonly Run[], apart: boolean): Group[] {
     const name = names.get(key) ?? '';
     const twins = [...names].filter(([, other]) => other === name).map(([other]) => other);
     const unique = twins.length < 2 ? '' : ` ${members[0]?.id.slice(0, 4) ?? ''}`;
-    const size = members.length > 1 ? ` (${members.length} runs)` : '';
-    return { key, label: `${name}${unique}${size}`, runs: members };
+    const own = `${name}${unique}`;
+    return { key, label: members.length > 1 ? t(`${own} (${members.length} runs)`) : own, runs: members };
   });
 
   /** Return a run's own name; for several runs, the algorithm and the facts that differ from other groups. */

@@ -1,6 +1,7 @@
 // The editor for every kind of label, and the edit of each command.
 import type { Answer, Answerable, Vocabulary } from '../../api/types';
 import type { Command } from '../../keys/registry';
+import { t } from '../../language/language';
 import * as hi from './hi';
 import * as lo from './lo';
 
@@ -59,10 +60,20 @@ export const EDITS: Partial<Record<Command, (labels: Labels) => Labels>> = {
   'next-segment': (labels) => moveTo(labels, labels.cursor + 1),
 };
 
-/** The hints that say why an edit changed nothing. */
-export const HINTS: Partial<Record<Command | 'choose' | 'draw', string>> = {
-  accept: 'There is nothing to keep: the learner made no choice here.',
-  'not-done': '“Not done” is for the last state only. At other states, choose an action.',
-  draw: 'This way passes nothing that the question is about. Draw along the learner’s path, and leave it where it is wrong.',
-  choose: 'The last state needs no action. Choose “Done here” or “Not done”.',
-};
+/** Return the hint that says why an edit changed nothing. */
+export function hintOf(edit: Command | 'choose' | 'draw'): string {
+  switch (edit) {
+    case 'accept':
+      return t('There is nothing to keep: the learner made no choice here.');
+    case 'not-done':
+      return t('“Not done” is for the last state only. At other states, choose an action.');
+    case 'draw':
+      return t(
+        'This way passes nothing that the question is about. Draw along the learner’s path, and leave it where it is wrong.',
+      );
+    case 'choose':
+      return t('The last state needs no action. Choose “Done here” or “Not done”.');
+    default:
+      return '';
+  }
+}
