@@ -139,7 +139,7 @@ export class WorkSession {
       return;
     }
     if (this.#sender.unsent().includes(last.assignment)) {
-      this.#warn('Your last answer is not saved yet, so it cannot be taken back. Try again in a moment.');
+      this.#warn(t('Your last answer is not saved yet, so it cannot be taken back. Try again in a moment.'));
       return;
     }
     try {
