@@ -25,10 +25,13 @@ Refusal
 │   ├── NotPlayable             the query is not an open demonstration
 │   ├── Displaced               a newer connection to the play socket replaced this one
 │   ├── RunFinished             a finished run does not allow this
+│   ├── NotFinished             only a finished run can be deleted
 │   ├── BudgetTooLow            a budget below the units spent and reserved
 │   ├── NameTaken               a user with this name exists
 │   ├── RunExists               the store has the run that is being imported
 │   ├── NotActive               a deactivated user gets no login links or tokens
+│   ├── StillActive             the data of an active user cannot be deleted
+│   ├── UserErased              the user's data were deleted, so the user stays deactivated
 │   ├── WebhookOff              a webhook that is off sends nothing
 │   └── LastAdministrator       no active administrator would be left
 ├── BodyTooLarge           413  the body is larger than the server accepts
@@ -206,6 +209,12 @@ class RunFinished(Conflict):
     name, title = "run-finished", "The run is finished"
 
 
+class NotFinished(Conflict):
+    """The run is not finished, so it cannot be deleted."""
+
+    name, title = "not-finished", "The run is not finished"
+
+
 class BudgetTooLow(Conflict):
     """The budget is less than the units spent and reserved."""
 
@@ -228,6 +237,18 @@ class NotActive(Conflict):
     """The user is deactivated and cannot get a login link or a token."""
 
     name, title = "not-active", "The user is deactivated"
+
+
+class StillActive(Conflict):
+    """The user is active, so the user's data cannot be deleted."""
+
+    name, title = "still-active", "The user is active"
+
+
+class UserErased(Conflict):
+    """The user's data were deleted, so the user can no longer be changed."""
+
+    name, title = "user-erased", "The user's data were deleted"
 
 
 class WebhookOff(Conflict):

@@ -21,6 +21,7 @@ __all__ = [
     "TokenList",
     "User",
     "UserCreate",
+    "UserErasure",
     "UserList",
     "UserPatch",
 ]
@@ -81,6 +82,9 @@ class User(Message):
     deactivated_at: float | None = Field(
         description="When the user was deactivated, in seconds since the epoch; null for an active user."
     )
+    erased_at: float | None = Field(
+        description="When the user's personal data were deleted, in seconds since the epoch; null if they were not."
+    )
     last_used_at: float | None = Field(
         description="When the user last called, in seconds since the epoch, to the minute; null if never."
     )
@@ -90,6 +94,19 @@ class UserList(Message):
     """All users, sent by the server."""
 
     users: list[User]
+
+
+class UserErasure(Message):
+    """What the deletion of a user's personal data deleted, or would delete beside the name, sent by the server."""
+
+    user: int = Field(description="The id of the user.")
+    dry_run: bool = Field(description="Whether nothing was deleted, because the request only asked.")
+    credentials: int = Field(description="Tokens, sessions and login links, with their labels and last uses.")
+    comments: int = Field(description="Comments that the user wrote.")
+    reasons: int = Field(description="Assignments with a reason that the user gave, or the name of a browser tab.")
+    traces: int = Field(description="Notes of when the user was last at work, and in which tabs.")
+    kept_answers: int = Field(description="Answers that count; they stay, without a name.")
+    kept_units: float = Field(description="The cost of these answers, in units.")
 
 
 class TokenCreate(Message):

@@ -53,6 +53,7 @@ ACCESS: Mapping[str, Access] = {
     # runs, queries, answers
     "createRun": _LEARN,
     "patchRun": OWN_RUN,
+    "deleteRun": OWN_RUN,
     "reportEpisodes": OWN_RUN,
     "ask": OWN_RUN,
     "useAnswer": OWN_RUN,
@@ -119,6 +120,7 @@ ACCESS: Mapping[str, Access] = {
     "createUser": _ADMIN,
     "getUser": _ADMIN,
     "patchUser": _ADMIN,
+    "eraseUser": _ADMIN,
     "createLoginLink": _ADMIN,
     "listTokens": _ADMIN,
     "getNumbers": _ADMIN,

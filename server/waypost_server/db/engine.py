@@ -195,6 +195,7 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
             cursor.execute("PRAGMA synchronous = FULL")
             # What a savepoint would undo is kept in memory, not in a file that is created for each transaction.
             cursor.execute("PRAGMA temp_store = MEMORY")
+            cursor.execute("PRAGMA secure_delete = ON")  # what is deleted is overwritten
         else:
             # Only the writing connection checkpoints; readers neither write nor truncate the log.
             cursor.execute("PRAGMA query_only = ON")

@@ -17,6 +17,7 @@ from sqlalchemy import (
     Table,
     Text,
     UniqueConstraint,
+    false,
     literal_column,
     text,
 )
@@ -50,7 +51,9 @@ users = Table(
     Column("role", Text, nullable=False),
     Column("created_at", Float, nullable=False),
     Column("deactivated_at", Float),
+    Column("erased_at", Float),  # when the user's personal data were deleted; the row stays, without a name
     one_of("role", "admin", "learner", "annotator", "viewer"),
+    CheckConstraint("erased_at IS NULL OR deactivated_at IS NOT NULL", name="erased_is_deactivated"),
     sqlite_autoincrement=True,
 )
 
@@ -98,12 +101,15 @@ runs = Table(
     Column("gold_of", Text, ForeignKey("runs.id")),
     # The share of the run's queries that somebody else answers once more, in the shadow.
     Column("second_answers", Float, nullable=False, server_default=text("0")),
+    # When the run's content was deleted. Its account stays, and the numbers of its answers and its ledger.
+    Column("deleted_at", Float),
     one_of("state", "running", "paused", "finished"),
     CheckConstraint("gold_rate >= 0 AND gold_rate <= 0.5", name="gold_rate"),
     CheckConstraint("second_answers >= 0 AND second_answers <= 1", name="second_answers"),
     CheckConstraint("spent >= 0 AND reserved >= 0", name="money_not_negative"),
     CheckConstraint("budget IS NULL OR spent + reserved <= budget", name="budget_not_overspent"),
     CheckConstraint("(state = 'finished') = (finished_at IS NOT NULL)", name="finished_at"),
+    CheckConstraint("deleted_at IS NULL OR state = 'finished'", name="deleted_is_finished"),
     Index("uq_runs_gold_of", "gold_of", unique=True),
     sqlite_autoincrement=True,
 )
@@ -189,7 +195,8 @@ Index("ix_assignments_user_live", assignments.c.user_id, sqlite_where=_live, pos
 IS_OPEN = queries.c.state == literal_column("'open'")
 IS_LIVE = assignments.c.state == literal_column("'live'")
 
-# Immutable (enforced by a trigger). The answer that counts is queries.answer_id; a late answer has no revision.
+# Immutable (enforced by a trigger), but what an answer says goes with its run when that is deleted. The answer that
+# counts is queries.answer_id; a late answer has no revision.
 answers = Table(
     "answers",
     metadata,
@@ -243,7 +250,8 @@ ledger = Table(
     sqlite_autoincrement=True,
 )
 
-# Append-only (enforced by a trigger): what reviewers wrote about queries.
+# Append-only (enforced by a trigger): what reviewers wrote about queries. They go only with the
+# run or with the data of their author.
 comments = Table(
     "comments",
     metadata,
@@ -294,13 +302,22 @@ active_time = Table(
     CheckConstraint("active_seconds >= 0", name="not_negative"),
 )
 
-# Pictures of states, identified by the SHA-256 of the file. Never changed, never deleted.
+# Pictures of states, identified by the SHA-256 of the file. Never changed; deleted with the last run that shows them.
 frames = Table(
     "frames",
     metadata,
     Column("hash", Text, primary_key=True),
     Column("png", LargeBinary, nullable=False),
     Column("created_at", Float, nullable=False),
+    Column("pinned", Boolean, nullable=False, server_default=false()),  # practice queries show it, so it stays
+)
+
+# The frames that the queries, answers and gold queries of a run show.
+frame_uses = Table(
+    "frame_uses",
+    metadata,
+    Column("run_id", Text, ForeignKey("runs.id"), primary_key=True),
+    Column("hash", Text, ForeignKey("frames.hash"), primary_key=True, index=True),
 )
 
 episodes = Table(

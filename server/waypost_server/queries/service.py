@@ -15,7 +15,7 @@ from waypost_server.db import canonical, wakeups
 from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
 from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
-from waypost_server.queries import checks, frames
+from waypost_server.queries import checks, frame_uses
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
 
@@ -42,6 +42,7 @@ QUERIES: Select[Any] = (
     .outerjoin(_annotator, _annotator.c.id == answers.c.user_id)
     .outerjoin(assignments, and_(assignments.c.query_id == queries.c.id, IS_LIVE))
     .outerjoin(_holder, _holder.c.id == assignments.c.user_id)
+    .where(run_table.c.deleted_at.is_(None))
 )
 
 
@@ -205,7 +206,7 @@ def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Cont
     names = checks.Names.of(runs.vocabulary_of(run_row.vocabulary))
     for one in new:
         checks.check_ask(one.ask, names, ["body", "queries", body.queries.index(one.ask)])
-    frames.check_stored(tx, [one.ask for one in new])
+    frame_uses.check_stored(tx, run_row.id, [one.ask for one in new])
     waiting = select(func.count()).where(queries.c.run_id == run_row.id, queries.c.state.in_(runs.UNANSWERED))
     n_open = tx.conn.execute(waiting).scalar_one()
     if n_open + len(new) > most_open:

@@ -323,7 +323,13 @@ export interface paths {
         get: operations["getRun"];
         put?: never;
         post?: never;
-        delete?: never;
+        /**
+         * Delete Run
+         * @description Delete what a finished run contains, for good. Its costs and its ledger stay, and so do annotators' numbers.
+         *
+         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         */
+        delete: operations["deleteRun"];
         options?: never;
         head?: never;
         /**
@@ -731,7 +737,13 @@ export interface paths {
         get: operations["getUser"];
         put?: never;
         post?: never;
-        delete?: never;
+        /**
+         * Erase User
+         * @description Delete the personal data of a deactivated user, for good. Answers and their costs stay, without a name.
+         *
+         *     Needs the role admin.
+         */
+        delete: operations["eraseUser"];
         options?: never;
         head?: never;
         /**
@@ -2416,7 +2428,7 @@ export interface components {
              * Action
              * @enum {string}
              */
-            action: "login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated";
+            action: "login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "run.deleted" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated" | "user.erased";
             /**
              * Object
              * @description The user, token or run that it is about: `user/7`; null if there is none.
@@ -4739,6 +4751,82 @@ export interface components {
             second_answers: number;
         };
         /**
+         * RunDeletion
+         * @description What the deletion of a run deleted, or would delete, sent by the server. The counts include its gold queries.
+         */
+        RunDeletion: {
+            /**
+             * Run
+             * @description The id of the run.
+             */
+            run: string;
+            /**
+             * Dry Run
+             * @description Whether nothing was deleted, because the request only asked.
+             */
+            dry_run: boolean;
+            /**
+             * Queries
+             * @description Queries that lose their content.
+             */
+            queries: number;
+            /**
+             * Answers
+             * @description Answers that lose their content; their costs and times stay.
+             */
+            answers: number;
+            /**
+             * Gold
+             * @description Known answers of gold queries.
+             */
+            gold: number;
+            /**
+             * Reasons
+             * @description Assignments with a reason or the name of a browser tab.
+             */
+            reasons: number;
+            /**
+             * Comments
+             * @description Comments on queries.
+             */
+            comments: number;
+            /**
+             * Events
+             * @description Events.
+             */
+            events: number;
+            /**
+             * Episodes
+             * @description Results of episodes.
+             */
+            episodes: number;
+            /**
+             * Messages
+             * @description Delivered or given up webhook messages.
+             */
+            messages: number;
+            /**
+             * Frames
+             * @description Pictures that no other run shows.
+             */
+            frames: number;
+            /**
+             * Frame Bytes
+             * @description The size of these pictures.
+             */
+            frame_bytes: number;
+            /**
+             * Kept Entries
+             * @description Entries of the ledger; they stay.
+             */
+            kept_entries: number;
+            /**
+             * Kept Units
+             * @description The sum of these entries: what the run has spent, in units.
+             */
+            kept_units: number;
+        };
+        /**
          * RunList
          * @description One page of runs, sent by the server.
          */
@@ -5077,6 +5165,11 @@ export interface components {
              */
             deactivated_at: number | null;
             /**
+             * Erased At
+             * @description When the user's personal data were deleted, in seconds since the epoch; null if they were not.
+             */
+            erased_at: number | null;
+            /**
              * Last Used At
              * @description When the user last called, in seconds since the epoch, to the minute; null if never.
              */
@@ -5094,6 +5187,52 @@ export interface components {
              * @enum {string}
              */
             role: "admin" | "learner" | "annotator" | "viewer";
+        };
+        /**
+         * UserErasure
+         * @description What the deletion of a user's personal data deleted, or would delete beside the name, sent by the server.
+         */
+        UserErasure: {
+            /**
+             * User
+             * @description The id of the user.
+             */
+            user: number;
+            /**
+             * Dry Run
+             * @description Whether nothing was deleted, because the request only asked.
+             */
+            dry_run: boolean;
+            /**
+             * Credentials
+             * @description Tokens, sessions and login links, with their labels and last uses.
+             */
+            credentials: number;
+            /**
+             * Comments
+             * @description Comments that the user wrote.
+             */
+            comments: number;
+            /**
+             * Reasons
+             * @description Assignments with a reason that the user gave, or the name of a browser tab.
+             */
+            reasons: number;
+            /**
+             * Traces
+             * @description Notes of when the user was last at work, and in which tabs.
+             */
+            traces: number;
+            /**
+             * Kept Answers
+             * @description Answers that count; they stay, without a name.
+             */
+            kept_answers: number;
+            /**
+             * Kept Units
+             * @description The cost of these answers, in units.
+             */
+            kept_units: number;
         };
         /**
          * UserList
@@ -6838,6 +6977,85 @@ export interface operations {
             };
         };
     };
+    deleteRun: {
+        parameters: {
+            query?: {
+                /** @description Only say what would be deleted. */
+                dry_run?: boolean;
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunDeletion"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The run is not finished */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     patchRun: {
         parameters: {
             query?: never;
@@ -8289,6 +8507,85 @@ export interface operations {
             };
         };
     };
+    eraseUser: {
+        parameters: {
+            query?: {
+                /** @description Only say what would be deleted. */
+                dry_run?: boolean;
+            };
+            header?: never;
+            path: {
+                user: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UserErasure"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The user is active; The user's data were deleted */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     patchUser: {
         parameters: {
             query?: never;
@@ -8340,7 +8637,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The last administrator stays */
+            /** @description The user's data were deleted; The last administrator stays */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -10611,7 +10908,7 @@ export interface operations {
         parameters: {
             query?: {
                 actor?: string | null;
-                action?: ("login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated") | null;
+                action?: ("login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "run.deleted" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated" | "user.erased") | null;
                 /** @description From this time on, in seconds since the epoch. */
                 since?: number | null;
                 /** @description Before this time, in seconds since the epoch. */

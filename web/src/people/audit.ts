@@ -8,12 +8,14 @@ export const ACTIONS: Readonly<Record<AuditAction, string>> = {
   logout: 'logged out',
   'link.created': 'made a login link',
   'permission.refused': '✕ not permitted',
+  'run.deleted': 'deleted a run',
   'token.created': 'created a token',
   'token.revoked': 'revoked a token',
   'user.created': 'created a user',
   'user.role_changed': 'changed a role',
   'user.deactivated': 'deactivated a user',
   'user.reactivated': 'reactivated a user',
+  'user.erased': 'deleted the data of a user',
 };
 
 /** Return an action by its name, or null if there is none of this name. */
