@@ -25,6 +25,7 @@ Refusal
 │   ├── NotPlayable             the query is not an open demonstration
 │   ├── Displaced               a newer connection to the play socket replaced this one
 │   ├── RunFinished             a finished run does not allow this
+│   ├── TooManyPictures         the learner's pictures have as many bytes as they may
 │   ├── NotFinished             only a finished run can be deleted
 │   ├── BudgetTooLow            a budget below the units spent and reserved
 │   ├── NameTaken               a user with this name exists
@@ -38,7 +39,7 @@ Refusal
 ├── NotJson                415  the body is not declared as JSON
 ├── Misdirected            421  a Host name that this server does not serve
 ├── Unprocessable          422  valid JSON, but a field is invalid; the refusal names the field
-├── TooManyQueries         429  the run has too many open queries
+├── TooManyQueries         429  the run, or the runs of its owner together, have too many open queries
 ├── TooManyAttempts        429  too many wrong login codes
 ├── TooManyMessages        429  too many messages on a play socket
 └── StorageFailed          503  the database failed and nothing was stored; try again
@@ -209,6 +210,12 @@ class RunFinished(Conflict):
     name, title = "run-finished", "The run is finished"
 
 
+class TooManyPictures(Conflict):
+    """The learner's pictures would have more bytes than the server allows. Nothing was stored."""
+
+    name, title = "too-many-pictures", "Too many pictures"
+
+
 class NotFinished(Conflict):
     """The run is not finished, so it cannot be deleted."""
 
@@ -292,7 +299,7 @@ class Unprocessable(Refusal):
 
 
 class TooManyQueries(Refusal):
-    """The run would have more open queries than the server allows."""
+    """The run, or all runs of its owner together, would have more open queries than the server allows."""
 
     status, name, title = 429, "too-many-queries", "Too many open queries"
 

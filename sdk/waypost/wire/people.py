@@ -88,6 +88,7 @@ class User(Message):
     last_used_at: float | None = Field(
         description="When the user last called, in seconds since the epoch, to the minute; null if never."
     )
+    frame_bytes: int = Field(description="The size of the pictures that the user has uploaded.")
 
 
 class UserList(Message):

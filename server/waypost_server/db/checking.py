@@ -22,6 +22,7 @@ from waypost_server.db.tables import (
     episodes,
     events,
     frame_uses,
+    frames,
     gold,
     gold_showings,
     ledger,
@@ -75,6 +76,12 @@ _charges = (
     select(func.count())
     .where(ledger.c.answer_id == answers.c.id, ledger.c.entry == "charge")
     .correlate(answers)
+    .scalar_subquery()
+)
+_uploaded = (
+    select(func.coalesce(func.sum(func.length(frames.c.png)), 0))
+    .where(frames.c.user_id == users.c.id)
+    .correlate(users)
     .scalar_subquery()
 )
 _own = runs.alias("own")
@@ -190,6 +197,11 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
                 *(exists().where(table.c.run_id == runs.c.id) for table in (events, episodes, frame_uses)),
             ),
         ),
+    ),
+    (
+        "The pictures that a user has uploaded have the size that the user's quota counts.",
+        "user",
+        select(users.c.id).where(users.c.frame_bytes != _uploaded),
     ),
     (
         "A user whose personal data were deleted has no credentials and wrote no comments.",

@@ -52,7 +52,10 @@ users = Table(
     Column("created_at", Float, nullable=False),
     Column("deactivated_at", Float),
     Column("erased_at", Float),  # when the user's personal data were deleted; the row stays, without a name
+    # The size of the pictures that the user uploaded first: the sum over the user's rows of frames.
+    Column("frame_bytes", BigInteger, nullable=False, server_default=text("0")),
     one_of("role", "admin", "learner", "annotator", "viewer"),
+    CheckConstraint("frame_bytes >= 0", name="frame_bytes_not_negative"),
     CheckConstraint("erased_at IS NULL OR deactivated_at IS NOT NULL", name="erased_is_deactivated"),
     sqlite_autoincrement=True,
 )
@@ -79,7 +82,7 @@ runs = Table(
     metadata,
     Column("number", RowId, primary_key=True),
     Column("id", Text, nullable=False, unique=True),
-    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False, index=True),
     Column("name", Text, nullable=False),
     Column("algorithm", Text, nullable=False),
     Column("seed", BigInteger, nullable=False),
@@ -310,6 +313,7 @@ frames = Table(
     Column("png", LargeBinary, nullable=False),
     Column("created_at", Float, nullable=False),
     Column("pinned", Boolean, nullable=False, server_default=false()),  # practice queries show it, so it stays
+    Column("user_id", RowId, ForeignKey("users.id"), index=True),  # who uploaded it; null: counts for nobody's quota
 )
 
 # The frames that the queries, answers and gold queries of a run show.

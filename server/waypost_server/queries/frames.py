@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Iterable, Iterator
 from itertools import islice
 
-from sqlalchemy import select, update
+from sqlalchemy import func, select, update
 
 from waypost import wire
 from waypost_server import errors
@@ -56,13 +56,20 @@ def missing(tx: Tx, hashes: Iterable[str]) -> list[str]:
     return [one for one in wanted if one not in stored]
 
 
-def store(tx: Tx, files: dict[str, bytes]) -> None:
-    """Store frames. Frames that are already stored do not change."""
-    rows = [{"hash": one, "png": files[one], "created_at": tx.now} for one in missing(tx, files)]
-    if rows:
-        tx.conn.execute(
-            tx.upsert(frames).on_conflict_do_nothing(), rows
-        )  # another learner may be storing the same frame
+def store(tx: Tx, files: dict[str, bytes], user: int | None = None) -> int:
+    """Store frames; return the size of those that were not stored before. The others do not change.
+
+    Args:
+        tx: the transaction.
+        files: PNG files by hash.
+        user: who uploads them; None if they belong to nobody.
+    """
+    rows = [{"hash": one, "png": files[one], "created_at": tx.now, "user_id": user} for one in missing(tx, files)]
+    if not rows:
+        return 0
+    # Another learner may be storing the same frame.
+    new = tx.upsert(frames).on_conflict_do_nothing().returning(func.length(frames.c.png))
+    return sum(tx.conn.execute(new, rows).scalars())
 
 
 def pin(tx: Tx, hashes: Iterable[str]) -> None:

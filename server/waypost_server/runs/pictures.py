@@ -1,11 +1,12 @@
 """The pictures that go with a run: those that no other run shows. Pictures that nobody ever showed go, too."""
 
+from collections import Counter
 from collections.abc import Sequence
 
-from sqlalchemy import ColumnElement, and_, delete, exists, func, or_, select
+from sqlalchemy import ColumnElement, and_, delete, exists, func, or_, select, update
 
 from waypost_server.db.clock import DAY
-from waypost_server.db.tables import frame_uses, frames
+from waypost_server.db.tables import frame_uses, frames, users
 from waypost_server.db.transaction import Tx
 
 AT_ONCE = 500  # pictures deleted in one statement
@@ -29,16 +30,16 @@ def take(tx: Tx, runs: Sequence[str]) -> tuple[int, int]:
     candidates = select(frames.c.hash).where(_candidate(tx, runs)).order_by(frames.c.hash).with_for_update()
     hashes = tx.conn.execute(candidates).scalars().all()
     tx.conn.execute(delete(frame_uses).where(frame_uses.c.run_id.in_(runs)))
-    n, size = 0, 0
+    n, size, freed = 0, 0, Counter[int | None]()
     for first in range(0, len(hashes), AT_ONCE):
         shown = exists().where(frame_uses.c.hash == frames.c.hash)
-        gone = (
-            delete(frames)
-            .where(frames.c.hash.in_(hashes[first : first + AT_ONCE]), ~shown)
-            .returning(func.length(frames.c.png))
-        )
-        sizes = tx.conn.execute(gone).scalars().all()
-        n, size = n + len(sizes), size + sum(sizes)
+        gone = delete(frames).where(frames.c.hash.in_(hashes[first : first + AT_ONCE]), ~shown)
+        rows = tx.conn.execute(gone.returning(frames.c.user_id, func.length(frames.c.png).label("size"))).all()
+        n, size = n + len(rows), size + sum(row.size for row in rows)
+        for row in rows:
+            freed[row.user_id] += row.size
+    for user in sorted(one for one in freed if one is not None):
+        tx.conn.execute(update(users).where(users.c.id == user).values(frame_bytes=users.c.frame_bytes - freed[user]))
     return n, size
 
 

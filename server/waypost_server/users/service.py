@@ -32,6 +32,7 @@ def _of_row(row: Row[Any]) -> wire.User:
         created_at=row.created_at,
         deactivated_at=row.deactivated_at,
         erased_at=row.erased_at,
+        frame_bytes=row.frame_bytes,
         last_used_at=row._mapping.get("last_used_at"),
     )
 

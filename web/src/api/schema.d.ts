@@ -5174,6 +5174,11 @@ export interface components {
              * @description When the user last called, in seconds since the epoch, to the minute; null if never.
              */
             last_used_at: number | null;
+            /**
+             * Frame Bytes
+             * @description The size of the pictures that the user has uploaded.
+             */
+            frame_bytes: number;
         };
         /**
          * UserCreate
@@ -8106,6 +8111,15 @@ export interface operations {
             };
             /** @description Not allowed; Refused from another site */
             403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Too many pictures */
+            409: {
                 headers: {
                     [name: string]: unknown;
                 };
