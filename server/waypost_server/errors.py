@@ -8,6 +8,7 @@ Refusal
 ├── BudgetExhausted        402  the run's budget has too few units left for the query
 ├── Forbidden              403  the role may not do this, or not to this object
 │   ├── NotYours           403  another annotator's assignment
+│   ├── OutOfScope         403  the token was made with other scopes
 │   ├── WrongToken         403  not the token of this lease
 │   └── CrossSite          403  a session cookie came from another site
 ├── NotFound               404  the object does not exist
@@ -100,6 +101,12 @@ class Forbidden(Refusal):
     """The caller may not do this: the role does not suffice, or the run belongs to another learner."""
 
     status, name, title = 403, "forbidden", "Not allowed"
+
+
+class OutOfScope(Forbidden):
+    """The token was made with scopes, and the operation is in none of them."""
+
+    name, title = "out-of-scope", "Not in the scopes of this token"
 
 
 class NotYours(Forbidden):

@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from waypost.wire.words import Kind, Message, Name, Note, Role
+from waypost.wire.words import Kind, Message, Name, Note, Role, Scope
 
 __all__ = [
     "Login",
@@ -124,6 +124,13 @@ class TokenCreate(Message):
         allow_inf_nan=False,
         description="For how many days the token is valid; null until it is revoked.",
     )
+    scopes: list[Scope] | None = Field(
+        default=None,
+        min_length=1,
+        max_length=4,
+        description="What the token may be used for, as far as its user may do it; every scope includes `read`. Null: "
+        "everything.",
+    )
 
 
 class NewToken(Message):
@@ -143,6 +150,7 @@ class Token(Message):
         description="When the token was last used, in seconds since the epoch, to the minute; null if never."
     )
     expires_at: float | None = Field(description="When it expires, in seconds since the epoch; null if it does not.")
+    scopes: list[Scope] | None = Field(description="What it may be used for; null for everything that the user may do.")
 
 
 class TokenList(Message):

@@ -104,6 +104,13 @@ def _change(database: str, name: str, wanted: wire.UserPatch) -> None:
         db.write_now(lambda tx: users.change(tx, user.id, wanted))
 
 
+def _scope(scope: str) -> wire.Scope:
+    known: dict[str, wire.Scope] = {one: one for one in get_args(wire.Scope)}
+    if scope not in known:
+        refuse(f"{scope!r} is not a scope; choose one of {', '.join(known)}.")
+    return known[scope]
+
+
 @token_app.command("create")
 def create_token(
     user: str,
@@ -111,13 +118,18 @@ def create_token(
     days: Annotated[
         float | None, typer.Option(min=0.01, max=3_650, help="For how many days it is valid; without, until revoked.")
     ] = None,
+    scope: Annotated[
+        list[str] | None,
+        typer.Option(help="What it may be used for: read, answer, learn or manage; can be repeated. Without: all."),
+    ] = None,
     database: DatabaseOption = DEFAULT_DATABASE,
     as_json: JsonOption = False,
 ) -> None:
     """Create an API token for a user. It is shown only once."""
+    scopes = [_scope(one) for one in scope] if scope else None
     with opened(database) as db:
         owner = db.read_now(lambda tx: users.find_by_name(tx, user))
-        token = db.write_now(lambda tx: tokens.create_token(tx, owner.id, label, days))
+        token = db.write_now(lambda tx: tokens.create_token(tx, owner.id, label, days, scopes))
     typer.echo(token.model_dump_json() if as_json else token.token)
 
 
@@ -133,7 +145,7 @@ def list_tokens(user: str, database: DatabaseOption = DEFAULT_DATABASE, as_json:
     for token in found.tokens:
         typer.echo(
             f"{token.id:>6}  created {_day(token.created_at)}  last used {_day(token.last_used_at)}  "
-            f"expires {_day(token.expires_at)}  {token.label}"
+            f"expires {_day(token.expires_at)}  {' '.join(token.scopes or ['all']):<12} {token.label}"
         )
 
 

@@ -73,6 +73,7 @@ credentials = Table(
     Column("expires_at", Float),
     Column("revoked_at", Float),
     Column("last_used_at", Float),  # to the minute
+    Column("scopes", Text),  # of a token: words with spaces between them; null: whatever its user may do
     one_of("kind", "api", "session", "login"),
     sqlite_autoincrement=True,
 )

@@ -108,14 +108,14 @@ async def list_numbers(context: Ctx, _: Allowed) -> wire.NumbersList:
 async def create_token(body: wire.TokenCreate, context: Ctx, caller: Allowed) -> wire.NewToken:
     """Create an API token for the caller; an administrator may create one for any user. It is shown only once.
 
-    A token that is made with a token does not outlive it.
+    A token that is made with a token does not outlive it, and has no scope that it lacks.
     """
     user = caller.user if body.user is None else body.user
     if user != caller.user and caller.role not in ADMINS:
         raise errors.Forbidden("Only an administrator may create tokens for other users.")
     made_with = None if caller.by_cookie else caller.credential
     return await context.db.write(
-        lambda tx: tokens.create_token(tx, user, body.label, body.days, made_with, caller.actor)
+        lambda tx: tokens.create_token(tx, user, body.label, body.days, body.scopes, made_with, caller.actor)
     )
 
 

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
+import httpx2
 import pytest
 from sqlalchemy import update
 from starlette.testclient import TestClient
@@ -140,6 +141,10 @@ class Scene:
 
     def call(self, name: str, caller: Caller | None) -> int:
         """Call an operation with a valid request about an object of the scene, and return the status."""
+        return self.send(name, caller).status_code
+
+    def send(self, name: str, caller: Caller | None) -> httpx2.Response:
+        """Call an operation with a valid request about an object of the scene."""
         method, path = PLACES[name]
         place = path.format(
             run=self.finished if name == "deleteRun" else self.run,
@@ -155,7 +160,7 @@ class Scene:
         body: Any = {"json": BODIES[name](self)} if name in BODIES else {}
         params = {"part": "queries"} if name == "listRecords" else {}
         headers = {} if caller is None else caller.headers
-        return self.service.client.request(method, place, headers=headers, params=params, **body).status_code
+        return self.service.client.request(method, place, headers=headers, params=params, **body)
 
     def own_token(self, caller: Caller | None) -> int:
         """A token of the caller, who may revoke it."""

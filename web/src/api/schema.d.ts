@@ -16,7 +16,7 @@ export interface paths {
          *
          *     If the query wanted as `next` cannot be leased, the answer stays accepted, and `next_problem` says why.
          *
-         *     Needs the role admin or annotator. The assignment must be the caller's own.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["answer"];
         delete?: never;
@@ -38,7 +38,7 @@ export interface paths {
          * Answer Batch
          * @description Answer several queries, stored by one commit. Each answer has a receipt, or the problem why it does not count.
          *
-         *     Needs the role admin or annotator.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator.
          */
         post: operations["answerBatch"];
         delete?: never;
@@ -60,7 +60,7 @@ export interface paths {
          * Retract
          * @description Retract an answer that the learner has not used: refund it, and lease its query to the caller again.
          *
-         *     Needs the role admin or annotator. The assignment must be the caller's own.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["retract"];
         delete?: never;
@@ -80,7 +80,7 @@ export interface paths {
          * My Assignments
          * @description List the caller's live assignments, so that a reloaded tab can continue with them.
          *
-         *     Needs the role admin or annotator.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator.
          */
         get: operations["myAssignments"];
         put?: never;
@@ -88,7 +88,7 @@ export interface paths {
          * Lease
          * @description Lease the next query; if there is none, wait for one.
          *
-         *     Needs the role admin or annotator.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator.
          */
         post: operations["lease"];
         delete?: never;
@@ -110,7 +110,7 @@ export interface paths {
          * Lease Batch
          * @description Lease the next queries, for a bot that answers several at once; wait for the first. The list may be empty.
          *
-         *     Needs the role admin or annotator.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator.
          */
         post: operations["leaseBatch"];
         delete?: never;
@@ -132,7 +132,7 @@ export interface paths {
          * Leave
          * @description Close a browser tab: release its assignments, except those in `keep`, and refuse its lease requests.
          *
-         *     Needs the role admin or annotator.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator.
          */
         post: operations["leave"];
         delete?: never;
@@ -154,7 +154,7 @@ export interface paths {
          * Renew
          * @description Renew the lease: it lasts its full length from now, but not longer than the server's cap.
          *
-         *     Needs the role admin or annotator. The assignment must be the caller's own.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["renew"];
         delete?: never;
@@ -176,7 +176,7 @@ export interface paths {
          * Release
          * @description Return the query to the queue without an answer. With `skip`, the caller does not get it again.
          *
-         *     Needs the role admin or annotator. The assignment must be the caller's own.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["release"];
         delete?: never;
@@ -204,7 +204,7 @@ export interface paths {
          * Ask
          * @description Ask the expert: all of the queries or none. A query that was asked before is returned with its answer.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["ask"];
         delete?: never;
@@ -270,7 +270,7 @@ export interface paths {
          * Use Answer
          * @description Mark the answer as used. From then on it can no longer be retracted.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["useAnswer"];
         delete?: never;
@@ -298,7 +298,7 @@ export interface paths {
          * Create Run
          * @description Create a run: one learner's training with one algorithm, domain, seed and cost model.
          *
-         *     Needs the role admin or learner.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner.
          */
         post: operations["createRun"];
         delete?: never;
@@ -327,7 +327,7 @@ export interface paths {
          * Delete Run
          * @description Delete what a finished run contains, for good. Its costs and its ledger stay, and so do annotators' numbers.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         delete: operations["deleteRun"];
         options?: never;
@@ -336,7 +336,7 @@ export interface paths {
          * Patch Run
          * @description Rename, pause, resume or finish a run; set its budget or priority. Finishing a run cancels its open queries.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         patch: operations["patchRun"];
         trace?: never;
@@ -354,7 +354,7 @@ export interface paths {
          * Report Episodes
          * @description Report the results of episodes. Reporting the same result again changes nothing.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["reportEpisodes"];
         delete?: never;
@@ -639,7 +639,7 @@ export interface paths {
          * Put Frames
          * @description Upload pictures of states: all of them or none. Pictures that were uploaded before do not change.
          *
-         *     Needs the role admin or learner.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner.
          */
         put: operations["putFrames"];
         post?: never;
@@ -662,7 +662,7 @@ export interface paths {
          * Missing Frames
          * @description Return the hashes of frames that are not stored yet.
          *
-         *     Needs the role admin or learner.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner.
          */
         post: operations["missingFrames"];
         delete?: never;
@@ -704,7 +704,7 @@ export interface paths {
          * List Users
          * @description List all users.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listUsers"];
         put?: never;
@@ -712,7 +712,7 @@ export interface paths {
          * Create User
          * @description Create a user: a person or a program that may call the server.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         post: operations["createUser"];
         delete?: never;
@@ -732,7 +732,7 @@ export interface paths {
          * Get User
          * @description Return a user.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["getUser"];
         put?: never;
@@ -741,7 +741,7 @@ export interface paths {
          * Erase User
          * @description Delete the personal data of a deactivated user, for good. Answers and their costs stay, without a name.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         delete: operations["eraseUser"];
         options?: never;
@@ -752,7 +752,7 @@ export interface paths {
          *
          *     Deactivation revokes sessions, tokens and login links, and releases leases, all immediately. Answers stay.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         patch: operations["patchUser"];
         trace?: never;
@@ -770,7 +770,7 @@ export interface paths {
          * Create Login Link
          * @description Create a one-time login code; the link is `<this server>/login#<code>`.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         post: operations["createLoginLink"];
         delete?: never;
@@ -790,7 +790,7 @@ export interface paths {
          * List Tokens
          * @description List a user's API tokens, without their secrets.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listTokens"];
         put?: never;
@@ -812,7 +812,7 @@ export interface paths {
          * Get Numbers
          * @description Return a user's performance: number of answers, speed, accuracy on gold queries.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["getNumbers"];
         put?: never;
@@ -834,7 +834,7 @@ export interface paths {
          * List Numbers
          * @description Return the performance of every annotator who ever answered.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listNumbers"];
         put?: never;
@@ -858,9 +858,9 @@ export interface paths {
          * Create Token
          * @description Create an API token for the caller; an administrator may create one for any user. It is shown only once.
          *
-         *     A token that is made with a token does not outlive it.
+         *     A token that is made with a token does not outlive it, and has no scope that it lacks.
          *
-         *     Every role may call it. The token must be the caller's own; administrators may do it for every token.
+         *     A token with scopes needs the scope manage. Every role may call it. The token must be the caller's own; administrators may do it for every token.
          */
         post: operations["createToken"];
         delete?: never;
@@ -883,7 +883,7 @@ export interface paths {
          * Revoke Token
          * @description Revoke one of the caller's tokens; an administrator may revoke any. It takes effect immediately.
          *
-         *     Every role may call it. The token must be the caller's own; administrators may do it for every token.
+         *     A token with scopes needs the scope manage. Every role may call it. The token must be the caller's own; administrators may do it for every token.
          */
         delete: operations["revokeToken"];
         options?: never;
@@ -1003,7 +1003,7 @@ export interface paths {
          * Logout Everywhere
          * @description End all of the caller's browser sessions, including this one. API tokens stay valid.
          *
-         *     Every role may call it.
+         *     A token with scopes needs the scope manage. Every role may call it.
          */
         delete: operations["logoutEverywhere"];
         options?: never;
@@ -1022,7 +1022,7 @@ export interface paths {
          * List Gold
          * @description List the run's gold queries, newest first, each with its number of answers and their agreement.
          *
-         *     Needs the role admin or learner.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner.
          */
         get: operations["listGold"];
         put?: never;
@@ -1033,7 +1033,7 @@ export interface paths {
          *     The run's `gold_rate` is the share of each annotator's queries that are gold. They look like the learner's queries.
          *     They are never in the run's ledger, and the learner never sees them.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["addGold"];
         delete?: never;
@@ -1056,7 +1056,7 @@ export interface paths {
          * Retire Gold
          * @description Retire a gold query: no annotator gets it any more. Answers to it stay.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         delete: operations["retireGold"];
         options?: never;
@@ -1075,7 +1075,7 @@ export interface paths {
          * List Review
          * @description List one page of a run's answers to review, newest query first.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         get: operations["listReview"];
         put?: never;
@@ -1121,7 +1121,7 @@ export interface paths {
          * Comment
          * @description Comment on a query. Annotators do not see it.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["comment"];
         delete?: never;
@@ -1145,7 +1145,7 @@ export interface paths {
          *
          *     Whoever gets the query next sees the comment, and the annotator who gave the answer finds it at `GET /me/returned`.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["sendBack"];
         delete?: never;
@@ -1231,7 +1231,7 @@ export interface paths {
          * List Webhooks
          * @description List all webhooks.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listWebhooks"];
         put?: never;
@@ -1239,7 +1239,7 @@ export interface paths {
          * Create Webhook
          * @description Create a webhook for an address that the operator has allowed. Its signing secret is shown only once.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         post: operations["createWebhook"];
         delete?: never;
@@ -1259,7 +1259,7 @@ export interface paths {
          * Get Webhook
          * @description Return a webhook.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["getWebhook"];
         put?: never;
@@ -1268,7 +1268,7 @@ export interface paths {
          * Delete Webhook
          * @description Delete a webhook and its messages.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         delete: operations["deleteWebhook"];
         options?: never;
@@ -1277,7 +1277,7 @@ export interface paths {
          * Patch Webhook
          * @description Change a webhook, or turn it off or on. Turning it on tries its pending messages immediately.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         patch: operations["patchWebhook"];
         trace?: never;
@@ -1295,7 +1295,7 @@ export interface paths {
          * Ping Webhook
          * @description Send a test message.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         post: operations["pingWebhook"];
         delete?: never;
@@ -1315,7 +1315,7 @@ export interface paths {
          * List Deliveries
          * @description List one page of a webhook's messages, newest first. Messages that ended more than a week ago are deleted.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listDeliveries"];
         put?: never;
@@ -1339,7 +1339,7 @@ export interface paths {
          * Redeliver
          * @description Send a message again, with the same id and content.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         post: operations["redeliver"];
         delete?: never;
@@ -1359,7 +1359,7 @@ export interface paths {
          * List Audit
          * @description List one page of the audit log, newest first: who did what with access, and what was refused.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listAudit"];
         put?: never;
@@ -1381,7 +1381,7 @@ export interface paths {
          * Export Audit
          * @description Download the whole audit log, oldest rows first, with all hashes.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["exportAudit"];
         put?: never;
@@ -5110,6 +5110,11 @@ export interface components {
              * @description When it expires, in seconds since the epoch; null if it does not.
              */
             expires_at: number | null;
+            /**
+             * Scopes
+             * @description What it may be used for; null for everything that the user may do.
+             */
+            scopes: ("read" | "answer" | "learn" | "manage")[] | null;
         };
         /**
          * TokenCreate
@@ -5131,6 +5136,11 @@ export interface components {
              * @description For how many days the token is valid; null until it is revoked.
              */
             days?: number | null;
+            /**
+             * Scopes
+             * @description What the token may be used for, as far as its user may do it; every scope includes `read`. Null: everything.
+             */
+            scopes?: ("read" | "answer" | "learn" | "manage")[] | null;
         };
         /**
          * TokenList
