@@ -43,6 +43,7 @@ Refusal
 ├── TooManyQueries         429  the run, or the runs of its owner together, have too many open queries
 ├── TooManyAttempts        429  too many wrong login codes
 ├── TooManyMessages        429  too many messages on a play socket
+├── Stopping               503  the server is about to stop; another one may be ready
 └── StorageFailed          503  the database failed and nothing was stored; try again
     └── StoreBusy               too many requests wait to store something
 """
@@ -321,6 +322,12 @@ class TooManyMessages(Refusal):
     """Too many messages came on a play socket."""
 
     status, name, title = 429, "too-many-messages", "Too many messages"
+
+
+class Stopping(Refusal):
+    """The server is about to stop, so send it nothing new."""
+
+    status, name, title = 503, "stopping", "The server is stopping"
 
 
 class StorageFailed(Refusal):

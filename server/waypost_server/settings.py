@@ -45,6 +45,9 @@ class Settings(BaseSettings):
     max_body_bytes: int = Field(default=4 * 2**20, gt=0, description="The maximum size of a request body.")
     max_frame_bytes: int = Field(default=2**20, gt=0, description="The maximum size of a picture of a state.")
     body_seconds: float = Field(default=30.0, gt=0, description="The maximum time to receive a request body.")
+    drain_seconds: float = Field(
+        default=0.0, ge=0, description="How long the server still serves after SIGTERM, when it is no longer ready."
+    )
     link_seconds: float = Field(default=900.0, gt=0, description="How long a login link is valid.")
     session_seconds: float = Field(
         default=30 * 86_400.0, gt=0, description="How long a browser stays logged in after its last use."

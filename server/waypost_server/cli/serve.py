@@ -61,7 +61,7 @@ def _serve(settings: Settings, host: str, bound: socket.socket, login_link: bool
         typer.echo(f"The store was of an earlier version: it was backed up to {done.backup}, and migrated.")
     if chosen.page is None and spa.find() is None:
         typer.echo("The web app is not built; `make web` builds it.")
-    serving.foreground(app, bound)
+    serving.foreground(app, bound, chosen.drain_seconds)
 
 
 def _welcome(db: Database, base: str, seconds: float, login_link: bool) -> str:

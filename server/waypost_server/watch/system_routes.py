@@ -20,9 +20,9 @@ async def healthz() -> wire.Health:
     return wire.Health(status="ok", version=VERSION)
 
 
-@router.get("/readyz", operation_id="readyz", responses=refusals(errors.StorageFailed))
+@router.get("/readyz", operation_id="readyz", responses=refusals(errors.StorageFailed, errors.Stopping))
 async def readyz(readiness: Ready) -> wire.Health:
-    """Report that the database answers, has this version's tables and can be written. One check serves a second."""
+    """Report that the database can be read and written, and that the server goes on. One check serves a second."""
     await readiness.check()
     return wire.Health(status="ok", version=VERSION)
 

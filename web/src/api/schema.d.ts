@@ -1421,7 +1421,7 @@ export interface paths {
         };
         /**
          * Readyz
-         * @description Report that the database answers, has this version's tables and can be written. One check serves a second.
+         * @description Report that the database can be read and written, and that the server goes on. One check serves a second.
          */
         get: operations["readyz"];
         put?: never;
@@ -11120,7 +11120,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The store failed */
+            /** @description The store failed; The server is stopping */
             503: {
                 headers: {
                     [name: string]: unknown;
