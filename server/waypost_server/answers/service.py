@@ -217,6 +217,7 @@ def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> 
     stored = _INSERT.first(tx.conn, row)
     if stored is None:
         raise _key_reused()
+    tx.count("answers", "late" if revision is None else "counted")
     if seen := frame_uses.of_answer(post.answer):
         frame_uses.show(tx, case.run.id, seen)
     return stored

@@ -29,6 +29,7 @@ async def readyz(readiness: Ready) -> wire.Health:
 
 @router.get("/metrics", operation_id="metrics", response_class=PlainTextResponse)
 async def get_metrics(context: Ctx, _: Allowed) -> PlainTextResponse:
-    """Return counts in Prometheus' text format."""
-    text = await context.db.read(metrics.text)
-    return PlainTextResponse(text, media_type="text/plain; version=0.0.4")
+    """Return metrics of the store and of this process in Prometheus' text format."""
+    held = await context.db.read(metrics.of_store)
+    done = metrics.of_process(context.db.counts, context.db.load, context.traffic)
+    return PlainTextResponse("\n".join([*held, *done, ""]), media_type="text/plain; version=0.0.4")

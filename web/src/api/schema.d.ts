@@ -1441,7 +1441,7 @@ export interface paths {
         };
         /**
          * Get Metrics
-         * @description Return counts in Prometheus' text format.
+         * @description Return metrics of the store and of this process in Prometheus' text format.
          *
          *     Needs the role admin or learner or viewer.
          */
