@@ -25,7 +25,7 @@ from waypost_learner.commands import (
 from waypost_learner.exchange import cli as exchange_cli
 from waypost_learner.experiments import cli as experiments_cli
 from waypost_learner.progress import BuildingProgress, TrainingProgress
-from waypost_server import cli as server_cli
+from waypost_server.cli.main import app as server_app
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -33,7 +33,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Waypost: a labeling server for hierarchical imitation learning, and its learners.",
 )
-app.add_typer(server_cli.app)
+app.add_typer(server_app)
 app.add_typer(experiments_cli.app)
 app.add_typer(exchange_cli.app)
 domain_app = typer.Typer(no_args_is_help=True, help="Domains: the installed ones, and checks of your own.")

@@ -24,6 +24,7 @@ from waypost_server.http import description, page, problems, spa
 from waypost_server.http.background import going_on
 from waypost_server.http.context import VERSION, Context
 from waypost_server.http.guard import Guard
+from waypost_server.http.traffic import Traffic
 from waypost_server.leases import routes as leases
 from waypost_server.leases.service import expire
 from waypost_server.play import routes as play
@@ -55,7 +56,7 @@ log = logging.getLogger("waypost")
 
 def create_app(settings: Settings | None = None) -> FastAPI:
     """Return the app. On start it opens the store, which must have this version's schema or be empty."""
-    chosen = settings or Settings()
+    chosen, traffic = settings or Settings(), Traffic()
     app = FastAPI(
         title="Waypost",
         version=VERSION,
@@ -64,7 +65,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
         webhooks=webhooks.sent,
-        lifespan=lambda app: _lifespan(app, chosen),
+        lifespan=lambda app: _lifespan(app, chosen, traffic),
     )
     for module in ROUTED:
         app.include_router(module.router, prefix=API)
@@ -76,17 +77,21 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     spa.install(app, chosen.page)  # the last, because it handles every other path
     app.add_middleware(GZipMiddleware, minimum_size=GZIP_BYTES, compresslevel=5)
     app.add_middleware(
-        Guard, hosts=chosen.hosts, max_body_bytes=chosen.max_body_bytes, body_seconds=chosen.body_seconds
+        Guard,
+        hosts=chosen.hosts,
+        max_body_bytes=chosen.max_body_bytes,
+        body_seconds=chosen.body_seconds,
+        traffic=traffic,
     )
     return app
 
 
 @asynccontextmanager
-async def _lifespan(app: FastAPI, settings: Settings) -> AsyncIterator[None]:
+async def _lifespan(app: FastAPI, settings: Settings, traffic: Traffic) -> AsyncIterator[None]:
     hub = Hub()
     db = await asyncio.to_thread(Database, settings.database, hub.committed)
     hub.open()
-    app.state.context = Context(settings, db, hub)
+    app.state.context = Context(settings, db, hub, traffic)
     app.state.credentials = CredentialCache(db)
     app.state.refusals = refusals.Refusals(db)
     app.state.attempts = LoginAttempts(settings.login_failures)

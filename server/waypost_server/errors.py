@@ -8,6 +8,7 @@ Refusal
 ├── BudgetExhausted        402  the run's budget has too few units left for the query
 ├── Forbidden              403  the role may not do this, or not to this object
 │   ├── NotYours           403  another annotator's assignment
+│   ├── OutOfScope         403  the token was made with other scopes
 │   ├── WrongToken         403  not the token of this lease
 │   └── CrossSite          403  a session cookie came from another site
 ├── NotFound               404  the object does not exist
@@ -25,19 +26,24 @@ Refusal
 │   ├── NotPlayable             the query is not an open demonstration
 │   ├── Displaced               a newer connection to the play socket replaced this one
 │   ├── RunFinished             a finished run does not allow this
+│   ├── TooManyPictures         the learner's pictures have as many bytes as they may
+│   ├── NotFinished             only a finished run can be deleted
 │   ├── BudgetTooLow            a budget below the units spent and reserved
 │   ├── NameTaken               a user with this name exists
 │   ├── RunExists               the store has the run that is being imported
 │   ├── NotActive               a deactivated user gets no login links or tokens
+│   ├── StillActive             the data of an active user cannot be deleted
+│   ├── UserErased              the user's data were deleted, so the user stays deactivated
 │   ├── WebhookOff              a webhook that is off sends nothing
 │   └── LastAdministrator       no active administrator would be left
 ├── BodyTooLarge           413  the body is larger than the server accepts
 ├── NotJson                415  the body is not declared as JSON
 ├── Misdirected            421  a Host name that this server does not serve
 ├── Unprocessable          422  valid JSON, but a field is invalid; the refusal names the field
-├── TooManyQueries         429  the run has too many open queries
+├── TooManyQueries         429  the run, or the runs of its owner together, have too many open queries
 ├── TooManyAttempts        429  too many wrong login codes
 ├── TooManyMessages        429  too many messages on a play socket
+├── Stopping               503  the server is about to stop; another one may be ready
 └── StorageFailed          503  the database failed and nothing was stored; try again
     └── StoreBusy               too many requests wait to store something
 """
@@ -96,6 +102,12 @@ class Forbidden(Refusal):
     """The caller may not do this: the role does not suffice, or the run belongs to another learner."""
 
     status, name, title = 403, "forbidden", "Not allowed"
+
+
+class OutOfScope(Forbidden):
+    """The token was made with scopes, and the operation is in none of them."""
+
+    name, title = "out-of-scope", "Not in the scopes of this token"
 
 
 class NotYours(Forbidden):
@@ -206,6 +218,18 @@ class RunFinished(Conflict):
     name, title = "run-finished", "The run is finished"
 
 
+class TooManyPictures(Conflict):
+    """The learner's pictures would have more bytes than the server allows. Nothing was stored."""
+
+    name, title = "too-many-pictures", "Too many pictures"
+
+
+class NotFinished(Conflict):
+    """The run is not finished, so it cannot be deleted."""
+
+    name, title = "not-finished", "The run is not finished"
+
+
 class BudgetTooLow(Conflict):
     """The budget is less than the units spent and reserved."""
 
@@ -228,6 +252,18 @@ class NotActive(Conflict):
     """The user is deactivated and cannot get a login link or a token."""
 
     name, title = "not-active", "The user is deactivated"
+
+
+class StillActive(Conflict):
+    """The user is active, so the user's data cannot be deleted."""
+
+    name, title = "still-active", "The user is active"
+
+
+class UserErased(Conflict):
+    """The user's data were deleted, so the user can no longer be changed."""
+
+    name, title = "user-erased", "The user's data were deleted"
 
 
 class WebhookOff(Conflict):
@@ -271,7 +307,7 @@ class Unprocessable(Refusal):
 
 
 class TooManyQueries(Refusal):
-    """The run would have more open queries than the server allows."""
+    """The run, or all runs of its owner together, would have more open queries than the server allows."""
 
     status, name, title = 429, "too-many-queries", "Too many open queries"
 
@@ -286,6 +322,12 @@ class TooManyMessages(Refusal):
     """Too many messages came on a play socket."""
 
     status, name, title = 429, "too-many-messages", "Too many messages"
+
+
+class Stopping(Refusal):
+    """The server is about to stop, so send it nothing new."""
+
+    status, name, title = 503, "stopping", "The server is stopping"
 
 
 class StorageFailed(Refusal):

@@ -1,10 +1,14 @@
 """Runs the app with uvicorn, in the foreground or on a thread, on a socket that is bound beforehand."""
 
+import asyncio
+import signal
 import socket
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
+from types import FrameType
 
 import uvicorn
 from fastapi import FastAPI
@@ -15,6 +19,7 @@ from waypost_server.play.protocol import MESSAGE_BYTES
 from waypost_server.settings import Settings
 
 GRACE_SECONDS = 2
+TICK_SECONDS = 0.1
 
 
 class CannotServe(Exception):
@@ -22,9 +27,13 @@ class CannotServe(Exception):
 
 
 class Server(uvicorn.Server):
-    """Uvicorn, but before it stops, it ends streams and long polls."""
+    """Uvicorn, but before it stops, it says that it is not ready, waits a while, and ends streams and long polls.
 
-    def __init__(self, app: FastAPI, log_level: str) -> None:
+    It waits only after SIGTERM, which a supervisor sends, and until a second signal. It serves meanwhile, because a
+    proxy sends requests until it has asked again whether the server is ready.
+    """
+
+    def __init__(self, app: FastAPI, log_level: str, drain_seconds: float = 0.0) -> None:
         config = uvicorn.Config(
             app,
             lifespan="on",
@@ -37,6 +46,21 @@ class Server(uvicorn.Server):
         )
         super().__init__(config)
         self._app = app
+        self._drain_seconds = drain_seconds
+        self._drains = False
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        """Stop because of a signal."""
+        self._drains = sig == signal.SIGTERM and not self.should_exit
+        super().handle_exit(sig, frame)
+
+    async def main_loop(self) -> None:
+        """Serve until told to stop, and on until the server is no longer asked."""
+        await super().main_loop()
+        self._app.state.readiness.stop()
+        until = time.monotonic() + self._drain_seconds
+        while self._drains and time.monotonic() < until:
+            await asyncio.sleep(TICK_SECONDS)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Wake all waiting requests, so that they end, and shut down."""
@@ -105,6 +129,6 @@ def _wait_for_start(server: Server, thread: threading.Thread) -> None:
             raise CannotServe("The server did not start; see its log.")
 
 
-def foreground(app: FastAPI, bound: socket.socket, log_level: str = "warning") -> None:
-    """Serve until the process is told to stop."""
-    Server(app, log_level).run([bound])
+def foreground(app: FastAPI, bound: socket.socket, drain_seconds: float) -> None:
+    """Serve until the process is told to stop, and after SIGTERM for `drain_seconds` more."""
+    Server(app, "warning", drain_seconds).run([bound])

@@ -36,9 +36,18 @@ class Settings(BaseSettings):
         description="The interval at which a long poll reads the store when nothing wakes it.",
     )
     max_open_queries: int = Field(default=10_000, gt=0, description="The maximum number of unanswered queries per run.")
+    max_user_open_queries: int = Field(
+        default=100_000, gt=0, description="The maximum number of unanswered queries in all runs of one user."
+    )
+    max_user_frame_bytes: int = Field(
+        default=10 * 2**30, gt=0, description="The maximum size of all pictures that one user uploads."
+    )
     max_body_bytes: int = Field(default=4 * 2**20, gt=0, description="The maximum size of a request body.")
     max_frame_bytes: int = Field(default=2**20, gt=0, description="The maximum size of a picture of a state.")
     body_seconds: float = Field(default=30.0, gt=0, description="The maximum time to receive a request body.")
+    drain_seconds: float = Field(
+        default=0.0, ge=0, description="How long the server still serves after SIGTERM, when it is no longer ready."
+    )
     link_seconds: float = Field(default=900.0, gt=0, description="How long a login link is valid.")
     session_seconds: float = Field(
         default=30 * 86_400.0, gt=0, description="How long a browser stays logged in after its last use."

@@ -64,6 +64,15 @@ def test_every_stage_of_the_dockerfile_that_is_copied_from_exists():
     assert [name for line in sources for name in line.split() if not (ROOT / name).exists()] == []
 
 
+def test_no_file_that_an_image_copies_is_kept_from_the_build():
+    rules = (ROOT / ".dockerignore").read_text().split()
+    assert rules[0] == "*"  # nothing is sent to the build but what is named
+    named = {rule.removeprefix("!") for rule in rules if rule.startswith("!")}
+    sources = re.findall(r"^COPY (?!--from)(.+) \S+$", IMAGES, re.MULTILINE)
+    copied = {name.split("/")[0] for line in sources for name in line.split()}
+    assert copied <= named
+
+
 def test_every_command_in_it_is_one_the_command_line_takes(compose):
     lines = [line for service in compose["services"].values() for line in invocations(command_of(service))]
     lines += [" ".join(re.findall(r'"([^"]+)"', cmd)) for cmd in re.findall(r'^CMD (\["waypost".*\])$', IMAGES, re.M)]

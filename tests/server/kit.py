@@ -158,13 +158,13 @@ def in_process(url: str, **settings: Any) -> Iterator[Service]:
         yield Service(client, app.state.context.db)
 
 
-def make_older_store(url: str) -> None:
-    """Create a store as a version before webhooks left it, with one administrator."""
+def make_older_store(url: str, schema_then: str = "0006") -> None:
+    """Create a store as an earlier version left it (by default, one before webhooks), with one administrator."""
     engine = create_engine(parse(url))
     settings = schema.config()
     with engine.begin() as conn:
         settings.attributes["connection"] = conn
-        command.upgrade(settings, "0006")
+        command.upgrade(settings, schema_then)
         conn.execute(text("INSERT INTO users (name, role, created_at) VALUES ('ann', 'admin', 1.5)"))
     engine.dispose()
 

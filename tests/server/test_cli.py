@@ -16,7 +16,7 @@ from tests.server.kit import API, make_older_store, schema_of
 from typer.testing import CliRunner
 
 from waypost import wire
-from waypost_server.cli import app
+from waypost_server.cli.main import app
 from waypost_server.db.engine import Database
 from waypost_server.users import service as users
 

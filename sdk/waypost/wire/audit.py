@@ -14,12 +14,14 @@ AuditAction = Literal[
     "logout",
     "link.created",
     "permission.refused",
+    "run.deleted",
     "token.created",
     "token.revoked",
     "user.created",
     "user.role_changed",
     "user.deactivated",
     "user.reactivated",
+    "user.erased",
 ]
 
 

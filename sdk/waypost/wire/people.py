@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from waypost.wire.words import Kind, Message, Name, Note, Role
+from waypost.wire.words import Kind, Message, Name, Note, Role, Scope
 
 __all__ = [
     "Login",
@@ -21,6 +21,7 @@ __all__ = [
     "TokenList",
     "User",
     "UserCreate",
+    "UserErasure",
     "UserList",
     "UserPatch",
 ]
@@ -81,15 +82,32 @@ class User(Message):
     deactivated_at: float | None = Field(
         description="When the user was deactivated, in seconds since the epoch; null for an active user."
     )
+    erased_at: float | None = Field(
+        description="When the user's personal data were deleted, in seconds since the epoch; null if they were not."
+    )
     last_used_at: float | None = Field(
         description="When the user last called, in seconds since the epoch, to the minute; null if never."
     )
+    frame_bytes: int = Field(description="The size of the pictures that the user has uploaded.")
 
 
 class UserList(Message):
     """All users, sent by the server."""
 
     users: list[User]
+
+
+class UserErasure(Message):
+    """What the deletion of a user's personal data deleted, or would delete beside the name, sent by the server."""
+
+    user: int = Field(description="The id of the user.")
+    dry_run: bool = Field(description="Whether nothing was deleted, because the request only asked.")
+    credentials: int = Field(description="Tokens, sessions and login links, with their labels and last uses.")
+    comments: int = Field(description="Comments that the user wrote.")
+    reasons: int = Field(description="Assignments with a reason that the user gave, or the name of a browser tab.")
+    traces: int = Field(description="Notes of when the user was last at work, and in which tabs.")
+    kept_answers: int = Field(description="Answers that count; they stay, without a name.")
+    kept_units: float = Field(description="The cost of these answers, in units.")
 
 
 class TokenCreate(Message):
@@ -105,6 +123,13 @@ class TokenCreate(Message):
         le=3_650,
         allow_inf_nan=False,
         description="For how many days the token is valid; null until it is revoked.",
+    )
+    scopes: list[Scope] | None = Field(
+        default=None,
+        min_length=1,
+        max_length=4,
+        description="What the token may be used for, as far as its user may do it; every scope includes `read`. Null: "
+        "everything.",
     )
 
 
@@ -125,6 +150,7 @@ class Token(Message):
         description="When the token was last used, in seconds since the epoch, to the minute; null if never."
     )
     expires_at: float | None = Field(description="When it expires, in seconds since the epoch; null if it does not.")
+    scopes: list[Scope] | None = Field(description="What it may be used for; null for everything that the user may do.")
 
 
 class TokenList(Message):

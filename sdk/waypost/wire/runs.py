@@ -20,6 +20,7 @@ __all__ = [
     "Prices",
     "Run",
     "RunCreate",
+    "RunDeletion",
     "RunList",
     "RunPatch",
     "RunSort",
@@ -254,6 +255,25 @@ class Forecast(Message):
     other_configurations: int = Field(
         description="The number of other finished runs used, of the domain and algorithm."
     )
+
+
+class RunDeletion(Message):
+    """What the deletion of a run deleted, or would delete, sent by the server. The counts include its gold queries."""
+
+    run: str = Field(description="The id of the run.")
+    dry_run: bool = Field(description="Whether nothing was deleted, because the request only asked.")
+    queries: int = Field(description="Queries that lose their content.")
+    answers: int = Field(description="Answers that lose their content; their costs and times stay.")
+    gold: int = Field(description="Known answers of gold queries.")
+    reasons: int = Field(description="Assignments with a reason or the name of a browser tab.")
+    comments: int = Field(description="Comments on queries.")
+    events: int = Field(description="Events.")
+    episodes: int = Field(description="Results of episodes.")
+    messages: int = Field(description="Delivered or given up webhook messages.")
+    frames: int = Field(description="Pictures that no other run shows.")
+    frame_bytes: int = Field(description="The size of these pictures.")
+    kept_entries: int = Field(description="Entries of the ledger; they stay.")
+    kept_units: float = Field(description="The sum of these entries: what the run has spent, in units.")
 
 
 class Event(Message):

@@ -17,6 +17,7 @@ __all__ = [
     "QueryState",
     "Role",
     "RunState",
+    "Scope",
     "SecondShare",
     "Units",
     "Verdict",
@@ -29,6 +30,7 @@ RunState = Literal["running", "paused", "finished"]
 QueryState = Literal["open", "leased", "answered", "cancelled"]
 Disagreement = Literal["suggestion", "gold", "second"]
 Role = Literal["admin", "learner", "annotator", "viewer"]
+Scope = Literal["read", "answer", "learn", "manage"]
 
 Json = Annotated[JsonValue, SerializeAsAny()]
 """Any JSON value, serialized as it is. Otherwise pydantic would check each value again in Python when in a union."""

@@ -24,7 +24,7 @@ from waypost_server.leases import active_time
 from waypost_server.leases import service as leases
 from waypost_server.leases.assignments import OwnAssignment, check_live, find, leased_after
 from waypost_server.leases.request import LeaseRequest
-from waypost_server.queries import checks
+from waypost_server.queries import checks, frame_uses
 from waypost_server.queries import service as queries
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
@@ -217,6 +217,9 @@ def _store(tx: Tx, post: Post, case: Case, revision: int | None, cost: Cost) -> 
     stored = _INSERT.first(tx.conn, row)
     if stored is None:
         raise _key_reused()
+    tx.count("answers", "late" if revision is None else "counted")
+    if seen := frame_uses.of_answer(post.answer):
+        frame_uses.show(tx, case.run.id, seen)
     return stored
 
 

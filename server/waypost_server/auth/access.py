@@ -11,7 +11,7 @@ from typing import Literal
 
 from sqlalchemy import bindparam, select
 
-from waypost.wire import Role
+from waypost.wire import Role, Scope
 from waypost_server import errors
 from waypost_server.auth.roles import ADMINS, ANNOTATORS, ANYONE, LEARNERS, WATCHERS
 from waypost_server.db.prepared import Prepared
@@ -23,36 +23,41 @@ from waypost_server.db.transaction import Tx
 class Access:
     """The callers of an operation: users with one of these roles.
 
-    Operations on an object of which `own` names the kind are for its owner: the learner who created the run, the
+    A token that was made with scopes may call only the operations of these scopes, and those without a scope, which
+    read. Operations on an object of which `own` names the kind are for its owner: the learner who created the run, the
     annotator who leased the query, the user of the token. Administrators may change every run and revoke every token,
     but nobody answers in the place of another annotator.
     """
 
     roles: frozenset[Role]
     own: Literal["run", "assignment", "token"] | None = None
+    scope: Scope | None = None
 
     @property
     def words(self) -> str:
         """The rule as a sentence for the API's documentation."""
+        limited = "" if self.scope is None else f"A token with scopes needs the scope {self.scope}. "
         if self.roles == ANYONE:
-            roles = "Every role may call it"
+            roles = f"{limited}Every role may call it"
         else:
-            roles = f"Needs the role {' or '.join(sorted(self.roles))}"
+            roles = f"{limited}Needs the role {' or '.join(sorted(self.roles))}"
         if self.own is None:
             return f"{roles}."
         others = "" if self.own == "assignment" else f"; administrators may do it for every {self.own}"
         return f"{roles}. The {self.own} must be the caller's own{others}."
 
 
-_ALL, _WATCH, _LEARN = Access(ANYONE), Access(WATCHERS), Access(LEARNERS)
-_ANSWER, _ADMIN = Access(ANNOTATORS), Access(ADMINS)
-OWN_RUN = Access(LEARNERS, own="run")
-_OWN_ASSIGNMENT = Access(ANNOTATORS, own="assignment")
+_ALL, _WATCH, _LEARN = Access(ANYONE), Access(WATCHERS), Access(LEARNERS, scope="learn")
+_ANSWER, _ADMIN = Access(ANNOTATORS, scope="answer"), Access(ADMINS, scope="manage")
+OWN_RUN = Access(LEARNERS, own="run", scope="learn")
+_OWN_ASSIGNMENT = Access(ANNOTATORS, own="assignment", scope="answer")
+_OWN_TOKEN = Access(ANYONE, own="token", scope="manage")
 
 ACCESS: Mapping[str, Access] = {
     # runs, queries, answers
     "createRun": _LEARN,
     "patchRun": OWN_RUN,
+    "deleteRun": OWN_RUN,
     "reportEpisodes": OWN_RUN,
     "ask": OWN_RUN,
     "useAnswer": OWN_RUN,
@@ -103,13 +108,13 @@ ACCESS: Mapping[str, Access] = {
     # the caller's own account, and practice
     "me": _ALL,
     "logout": _ALL,
-    "logoutEverywhere": _ALL,
+    "logoutEverywhere": Access(ANYONE, scope="manage"),
     "myNumbers": _ALL,
     "myReturned": _ALL,
     "myTokens": _ALL,
     "mySessions": _ALL,
-    "createToken": Access(ANYONE, own="token"),
-    "revokeToken": Access(ANYONE, own="token"),
+    "createToken": _OWN_TOKEN,
+    "revokeToken": _OWN_TOKEN,
     "getPractice": _ALL,
     "practice": _ALL,
     # people and webhooks
@@ -119,6 +124,7 @@ ACCESS: Mapping[str, Access] = {
     "createUser": _ADMIN,
     "getUser": _ADMIN,
     "patchUser": _ADMIN,
+    "eraseUser": _ADMIN,
     "createLoginLink": _ADMIN,
     "listTokens": _ADMIN,
     "getNumbers": _ADMIN,
@@ -146,6 +152,17 @@ def check_role(access: Access, name: str, role: Role) -> None:
     """
     if role not in access.roles:
         raise errors.Forbidden(f"This needs the role {' or '.join(sorted(access.roles))}; {name} is {role}.")
+
+
+def check_scope(access: Access, scopes: frozenset[Scope] | None) -> None:
+    """Refuse a token whose scopes do not include the operation.
+
+    Raises:
+        OutOfScope: naming the scopes.
+    """
+    if scopes is not None and access.scope is not None and access.scope not in scopes:
+        may = ", ".join(sorted(scopes))
+        raise errors.OutOfScope(f"This needs the scope {access.scope}; the token has only {may}. Use another token.")
 
 
 def check_still(tx: Tx, access: Access, user: int) -> Role:

@@ -3,11 +3,11 @@
 import hashlib
 import secrets
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 from sqlalchemy import Select, bindparam, insert, select, update
 
-from waypost.wire import Role
+from waypost.wire import Role, Scope
 from waypost_server import errors
 from waypost_server.db.audit import moment
 from waypost_server.db.prepared import Prepared
@@ -27,6 +27,7 @@ class Owner:
     name: str
     role: Role
     credential: int
+    scopes: frozenset[Scope] | None  # of a token; None: everything that the user may do
     last_use_is_stale: bool  # whether `last_used_at` should be updated
 
 
@@ -51,7 +52,14 @@ def hash_of(secret: str) -> str:
     return hashlib.sha256(secret.encode("utf-8", "surrogateescape")).hexdigest()
 
 
-def issue(tx: Tx, user: int, kind: CredentialKind, label: str = "", seconds: float | None = None) -> Secret:
+def issue(
+    tx: Tx,
+    user: int,
+    kind: CredentialKind,
+    label: str = "",
+    seconds: float | None = None,
+    scopes: frozenset[Scope] | None = None,
+) -> Secret:
     """Create a credential that is valid for `seconds`, or until it is revoked.
 
     Raises:
@@ -65,17 +73,22 @@ def issue(tx: Tx, user: int, kind: CredentialKind, label: str = "", seconds: flo
         raise errors.NotActive(f"{owner.name} is deactivated; reactivate the user first.")
     secret = f"wp_{secrets.token_urlsafe(32)}"
     expires_at = None if seconds is None else tx.now + seconds
-    row = tx.conn.execute(
-        insert(credentials)
-        .values(user_id=user, kind=kind, hash=hash_of(secret), label=label, created_at=tx.now, expires_at=expires_at)
-        .returning(credentials.c.id)
-    ).one()
+    new = {
+        "user_id": user,
+        "kind": kind,
+        "hash": hash_of(secret),
+        "label": label,
+        "created_at": tx.now,
+        "expires_at": expires_at,
+        "scopes": None if scopes is None else " ".join(sorted(scopes)),
+    }
+    row = tx.conn.execute(insert(credentials).values(new).returning(credentials.c.id)).one()
     return Secret(row.id, user, owner.name, secret, expires_at)
 
 
 _FIND = Prepared(
     select(users.c.id, users.c.name, users.c.role, credentials.c.id.label("credential"))
-    .add_columns(credentials.c.expires_at, credentials.c.last_used_at)
+    .add_columns(credentials.c.expires_at, credentials.c.last_used_at, credentials.c.scopes)
     .join(credentials, credentials.c.user_id == users.c.id)
     .where(
         credentials.c.hash == bindparam("hash"),
@@ -92,7 +105,12 @@ def find(tx: Tx, secret_hash: str, kind: CredentialKind) -> Owner | None:
     if row is None or (row.expires_at is not None and row.expires_at <= tx.now):
         return None
     is_stale = row.last_used_at is None or row.last_used_at <= tx.now - LAST_USE_SECONDS
-    return Owner(row.id, row.name, row.role, row.credential, is_stale)
+    return Owner(row.id, row.name, row.role, row.credential, scopes_of(row.scopes), is_stale)
+
+
+def scopes_of(stored: str | None) -> frozenset[Scope] | None:
+    """Return the scopes of a token as they are stored; None if it has none, and may do what its user may."""
+    return None if stored is None else frozenset(cast(list[Scope], stored.split()))
 
 
 @dataclass(frozen=True)
@@ -119,10 +137,19 @@ def why_rejected(tx: Tx, secret_hash: str, kind: CredentialKind) -> Rejected | N
     return Rejected(row.id, row.user_id, row.name, "expired" if row.revoked_at is None else "revoked")
 
 
-def seconds_left(tx: Tx, credential: int) -> float | None:
-    """Return how long a credential is still valid; None if it does not expire."""
-    until = tx.conn.execute(select(credentials.c.expires_at).where(credentials.c.id == credential)).scalar_one()
-    return None if until is None else until - tx.now
+@dataclass(frozen=True)
+class Limits:
+    """How long a credential is still valid, in seconds, and its scopes; None: without a limit."""
+
+    seconds: float | None = None
+    scopes: frozenset[Scope] | None = None
+
+
+def limits_of(tx: Tx, credential: int) -> Limits:
+    """Return the limits of a credential."""
+    limits = select(credentials.c.expires_at, credentials.c.scopes).where(credentials.c.id == credential)
+    row = tx.conn.execute(limits).one()
+    return Limits(None if row.expires_at is None else row.expires_at - tx.now, scopes_of(row.scopes))
 
 
 def record_use(tx: Tx, credential: int) -> None:

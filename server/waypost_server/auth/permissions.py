@@ -7,9 +7,9 @@ from fastapi import Depends, Request
 from fastapi.security import APIKeyCookie, HTTPBearer
 from starlette.requests import HTTPConnection
 
-from waypost.wire import Role
+from waypost.wire import Role, Scope
 from waypost_server import errors
-from waypost_server.auth.access import ACCESS, check_role
+from waypost_server.auth.access import ACCESS, check_role, check_scope
 from waypost_server.auth.credentials import CredentialKind, hash_of
 from waypost_server.auth.lookup import Cached, CredentialCache
 from waypost_server.db.audit import Actor
@@ -29,6 +29,7 @@ class Caller:
     name: str
     role: Role
     credential: int
+    scopes: frozenset[Scope] | None
     by_cookie: bool
     address: str | None
 
@@ -70,7 +71,7 @@ async def authenticate(connection: HTTPConnection, cache: CredentialCache) -> Ca
         connection.state.rejected = (kind, hash_of(secret))  # for the audit log, as the caller below (`auth.refusals`)
         raise errors.Unauthenticated("The token or session is unknown, expired or revoked; get a new one.")
     address = address_of(connection)
-    caller = Caller(owner.user, owner.name, owner.role, owner.credential, by_cookie, address)
+    caller = Caller(owner.user, owner.name, owner.role, owner.credential, owner.scopes, by_cookie, address)
     connection.state.caller = caller
     return caller
 
@@ -91,7 +92,7 @@ async def admit(
     caller = await authenticate(request, cache)
     if caller.by_cookie and request.method not in {"GET", "HEAD"}:
         refuse_cross_site(request)
-    check_role(ACCESS[request.scope["route"].operation_id], caller.name, caller.role)
+    check_call(caller, request.scope["route"].operation_id)
     return caller
 
 
@@ -116,8 +117,18 @@ async def authenticate_socket(socket: HTTPConnection, cache: CredentialCache) ->
     caller = await authenticate(socket, cache)
     if caller.by_cookie:
         refuse_cross_site(socket)
-    check_role(ACCESS["play"], caller.name, caller.role)
+    check_call(caller, "play")
     return caller
+
+
+def check_call(caller: Caller, operation: str) -> None:
+    """Refuse a caller whose role, or whose token, is not for an operation of `auth.access`.
+
+    Raises:
+        Forbidden, OutOfScope: naming what would be allowed.
+    """
+    check_role(ACCESS[operation], caller.name, caller.role)
+    check_scope(ACCESS[operation], caller.scopes)
 
 
 def refuse_cross_site(connection: HTTPConnection) -> None:

@@ -1,10 +1,12 @@
 """Creates, lists and revokes API tokens."""
 
+from collections.abc import Iterable
+
 from sqlalchemy import select
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.auth.credentials import issue, revoke, seconds_left, valid
+from waypost_server.auth.credentials import Limits, issue, limits_of, revoke, scopes_of, valid
 from waypost_server.db.audit import COMMAND_LINE, Actor, Entry
 from waypost_server.db.clock import DAY
 from waypost_server.db.tables import credentials, users
@@ -16,21 +18,31 @@ def create_token(
     user: int,
     label: str,
     days: float | None = None,
+    scopes: Iterable[wire.Scope] | None = None,
     made_with: int | None = None,
     by: Actor = COMMAND_LINE,
 ) -> wire.NewToken:
-    """Create an API token that is valid for `days`, or until it is revoked.
+    """Create an API token that is valid for `days`, or until it is revoked, for everything or with scopes.
 
-    It does not outlive `made_with`, the token with which it is made: a stolen one would otherwise never end.
+    It does not outlive `made_with`, the token with which it is made, and has no other scopes: whoever has stolen a
+    token could otherwise make a better one.
 
     Raises:
+        OutOfScope: it would have a scope that `made_with` lacks.
         NotFound: there is no such user.
         NotActive: the user is deactivated.
     """
     wanted = None if days is None else days * DAY
-    left = None if made_with is None else seconds_left(tx, made_with)
-    issued = issue(tx, user, "api", label, min((one for one in (wanted, left) if one is not None), default=None))
+    limits = Limits() if made_with is None else limits_of(tx, made_with)
+    seconds = min((one for one in (wanted, limits.seconds) if one is not None), default=None)
+    chosen = limits.scopes if scopes is None else frozenset(scopes)
+    if limits.scopes is not None and chosen is not None and not chosen <= limits.scopes:
+        lacking = ", ".join(sorted(chosen - limits.scopes))
+        raise errors.OutOfScope(f"A token cannot make one with a scope that it lacks: {lacking}.")
+    issued = issue(tx, user, "api", label, seconds, chosen)
     details = {"user": user, "name": issued.name, "label": label, "expires": issued.expires}
+    if chosen is not None:
+        details["scopes"] = " ".join(sorted(chosen))
     tx.record(Entry(by, "token.created", f"token/{issued.id}", details))
     return wire.NewToken(id=issued.id, token=issued.secret)
 
@@ -52,10 +64,15 @@ def list_tokens(tx: Tx, user: int) -> wire.TokenList:
                 created_at=row.created_at,
                 last_used_at=row.last_used_at,
                 expires_at=row.expires_at,
+                scopes=_listed(scopes_of(row.scopes)),
             )
             for row in rows
         ]
     )
+
+
+def _listed(scopes: frozenset[wire.Scope] | None) -> list[wire.Scope] | None:
+    return None if scopes is None else sorted(scopes)
 
 
 def revoke_token(tx: Tx, token: int, owner: int | None = None, by: Actor = COMMAND_LINE) -> None:

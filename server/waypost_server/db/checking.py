@@ -9,7 +9,7 @@ from typing import Any
 
 from alembic.autogenerate import compare_metadata
 from alembic.runtime.migration import MigrationContext
-from sqlalchemy import Column, Connection, Select, and_, case, create_engine, func, or_, select, text
+from sqlalchemy import Column, Connection, Select, and_, case, create_engine, exists, func, or_, select, text
 
 from waypost_server.db import audit
 from waypost_server.db.engine import parse
@@ -18,13 +18,20 @@ from waypost_server.db.tables import (
     answers,
     assignments,
     comments,
+    credentials,
+    episodes,
+    events,
+    frame_uses,
+    frames,
     gold,
     gold_showings,
     ledger,
     metadata,
+    presence,
     queries,
     runs,
     second_answers,
+    users,
 )
 from waypost_server.db.transaction import Tx
 
@@ -69,6 +76,12 @@ _charges = (
     select(func.count())
     .where(ledger.c.answer_id == answers.c.id, ledger.c.entry == "charge")
     .correlate(answers)
+    .scalar_subquery()
+)
+_uploaded = (
+    select(func.coalesce(func.sum(func.length(frames.c.png)), 0))
+    .where(frames.c.user_id == users.c.id)
+    .correlate(users)
     .scalar_subquery()
 )
 _own = runs.alias("own")
@@ -171,6 +184,32 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         .join(answers, answers.c.id == comments.c.answer_id)
         .join(queries, queries.c.id == answers.c.query_id)
         .where(or_(queries.c.id != comments.c.query_id, _counting)),
+    ),
+    (
+        "A deleted run has no content.",
+        "run",
+        select(runs.c.id).where(
+            runs.c.deleted_at.is_not(None),
+            or_(
+                exists().where(_of_run, queries.c.ask != ""),
+                exists().where(answers.c.run_id == runs.c.id, answers.c.content != ""),
+                exists().where(comments.c.query_id == queries.c.id, _of_run),
+                *(exists().where(table.c.run_id == runs.c.id) for table in (events, episodes, frame_uses)),
+            ),
+        ),
+    ),
+    (
+        "The pictures that a user has uploaded have the size that the user's quota counts.",
+        "user",
+        select(users.c.id).where(users.c.frame_bytes != _uploaded),
+    ),
+    (
+        "A user whose personal data were deleted has no credentials and wrote no comments.",
+        "user",
+        select(users.c.id).where(
+            users.c.erased_at.is_not(None),
+            or_(*(exists().where(table.c.user_id == users.c.id) for table in (credentials, comments, presence))),
+        ),
     ),
     (
         "A gold query is shown in the shadow of its run.",

@@ -7,8 +7,8 @@ one connection, which writes and commits many transactions at once (`db.writer`)
 import asyncio
 import sqlite3
 import time
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -18,11 +18,12 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
 
 from waypost_server import errors
 from waypost_server.db import audit, schema
+from waypost_server.db.counts import Count, Counts
 from waypost_server.db.notifications import Notifications
 from waypost_server.db.prepared import run_sql
 from waypost_server.db.transaction import Tx
 from waypost_server.db.wakeups import Topics
-from waypost_server.db.writer import CommittingThreads, GroupCommit, Work, Writer
+from waypost_server.db.writer import CommittingThreads, GroupCommit, Load, Writer
 
 T = TypeVar("T")
 
@@ -50,6 +51,7 @@ class Database:
             BadDatabase, WrongSchema: with one sentence for the operator.
         """
         self.url = parse(url)
+        self.counts = Counts()
         lite = self.url.get_backend_name() == "sqlite"
         if lite and not create:
             _require_file(self.url)
@@ -73,7 +75,7 @@ class Database:
         Raises:
             StorageFailed, StoreBusy: nothing was stored.
         """
-        return self._writer.submit(_recorded(work)).result()
+        return self._submit(work).result()
 
     def read_now(self, work: Callable[[Tx], T]) -> T:
         """Run reads against one consistent snapshot and return the result."""
@@ -89,11 +91,37 @@ class Database:
         Raises:
             StorageFailed, StoreBusy: nothing was stored.
         """
-        return await asyncio.wrap_future(self._writer.submit(_recorded(work)))
+        return await asyncio.wrap_future(self._submit(work))
 
     async def read(self, work: Callable[[Tx], T]) -> T:
         """Run reads off the event loop and return the result."""
         return await asyncio.get_running_loop().run_in_executor(self._readers, self.read_now, work)
+
+    @property
+    def load(self) -> Load:
+        """How much this process writes."""
+        return self._writer.load
+
+    def _submit(self, work: Callable[[Tx], T]) -> Future[T]:
+        """Queue a transaction that ends with its rows of the audit log. Once it is committed, its counts are added."""
+        counted: Mapping[Count, int] = {}
+
+        def run(conn: Connection, topics: Topics) -> T:
+            nonlocal counted
+            tx = Tx(conn, topics)
+            result = work(tx)
+            if tx.recorded:
+                audit.append(conn, tx.recorded)
+            counted = tx.counted
+            return result
+
+        def done(future: Future[T]) -> None:
+            if counted and not future.cancelled() and future.exception() is None:
+                self.counts.add(counted)
+
+        future = self._writer.submit(run)
+        future.add_done_callback(done)
+        return future
 
     def close(self) -> None:
         """Finish submitted transactions and close every connection."""
@@ -103,19 +131,6 @@ class Database:
         self._readers.shutdown()
         self._read_engine.dispose()
         self._engine.dispose()
-
-
-def _recorded(work: Callable[[Tx], T]) -> Work[T]:
-    """Return a transaction that ends with the rows of the audit log that its work recorded."""
-
-    def run(conn: Connection, topics: Topics) -> T:
-        tx = Tx(conn, topics)
-        result = work(tx)
-        if tx.recorded:
-            audit.append(conn, tx.recorded)
-        return result
-
-    return run
 
 
 def migrate(url: str, keep: Callable[[], None] = lambda: None) -> schema.Migrated:
@@ -195,6 +210,7 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
             cursor.execute("PRAGMA synchronous = FULL")
             # What a savepoint would undo is kept in memory, not in a file that is created for each transaction.
             cursor.execute("PRAGMA temp_store = MEMORY")
+            cursor.execute("PRAGMA secure_delete = ON")  # what is deleted is overwritten
         else:
             # Only the writing connection checkpoints; readers neither write nor truncate the log.
             cursor.execute("PRAGMA query_only = ON")

@@ -17,6 +17,7 @@ from sqlalchemy import (
     Table,
     Text,
     UniqueConstraint,
+    false,
     literal_column,
     text,
 )
@@ -50,7 +51,12 @@ users = Table(
     Column("role", Text, nullable=False),
     Column("created_at", Float, nullable=False),
     Column("deactivated_at", Float),
+    Column("erased_at", Float),  # when the user's personal data were deleted; the row stays, without a name
+    # The size of the pictures that the user uploaded first: the sum over the user's rows of frames.
+    Column("frame_bytes", BigInteger, nullable=False, server_default=text("0")),
     one_of("role", "admin", "learner", "annotator", "viewer"),
+    CheckConstraint("frame_bytes >= 0", name="frame_bytes_not_negative"),
+    CheckConstraint("erased_at IS NULL OR deactivated_at IS NOT NULL", name="erased_is_deactivated"),
     sqlite_autoincrement=True,
 )
 
@@ -67,6 +73,7 @@ credentials = Table(
     Column("expires_at", Float),
     Column("revoked_at", Float),
     Column("last_used_at", Float),  # to the minute
+    Column("scopes", Text),  # of a token: words with spaces between them; null: whatever its user may do
     one_of("kind", "api", "session", "login"),
     sqlite_autoincrement=True,
 )
@@ -76,7 +83,7 @@ runs = Table(
     metadata,
     Column("number", RowId, primary_key=True),
     Column("id", Text, nullable=False, unique=True),
-    Column("user_id", RowId, ForeignKey("users.id"), nullable=False),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False, index=True),
     Column("name", Text, nullable=False),
     Column("algorithm", Text, nullable=False),
     Column("seed", BigInteger, nullable=False),
@@ -98,12 +105,15 @@ runs = Table(
     Column("gold_of", Text, ForeignKey("runs.id")),
     # The share of the run's queries that somebody else answers once more, in the shadow.
     Column("second_answers", Float, nullable=False, server_default=text("0")),
+    # When the run's content was deleted. Its account stays, and the numbers of its answers and its ledger.
+    Column("deleted_at", Float),
     one_of("state", "running", "paused", "finished"),
     CheckConstraint("gold_rate >= 0 AND gold_rate <= 0.5", name="gold_rate"),
     CheckConstraint("second_answers >= 0 AND second_answers <= 1", name="second_answers"),
     CheckConstraint("spent >= 0 AND reserved >= 0", name="money_not_negative"),
     CheckConstraint("budget IS NULL OR spent + reserved <= budget", name="budget_not_overspent"),
     CheckConstraint("(state = 'finished') = (finished_at IS NOT NULL)", name="finished_at"),
+    CheckConstraint("deleted_at IS NULL OR state = 'finished'", name="deleted_is_finished"),
     Index("uq_runs_gold_of", "gold_of", unique=True),
     sqlite_autoincrement=True,
 )
@@ -189,7 +199,8 @@ Index("ix_assignments_user_live", assignments.c.user_id, sqlite_where=_live, pos
 IS_OPEN = queries.c.state == literal_column("'open'")
 IS_LIVE = assignments.c.state == literal_column("'live'")
 
-# Immutable (enforced by a trigger). The answer that counts is queries.answer_id; a late answer has no revision.
+# Immutable (enforced by a trigger), but what an answer says goes with its run when that is deleted. The answer that
+# counts is queries.answer_id; a late answer has no revision.
 answers = Table(
     "answers",
     metadata,
@@ -243,7 +254,8 @@ ledger = Table(
     sqlite_autoincrement=True,
 )
 
-# Append-only (enforced by a trigger): what reviewers wrote about queries.
+# Append-only (enforced by a trigger): what reviewers wrote about queries. They go only with the
+# run or with the data of their author.
 comments = Table(
     "comments",
     metadata,
@@ -294,13 +306,23 @@ active_time = Table(
     CheckConstraint("active_seconds >= 0", name="not_negative"),
 )
 
-# Pictures of states, identified by the SHA-256 of the file. Never changed, never deleted.
+# Pictures of states, identified by the SHA-256 of the file. Never changed; deleted with the last run that shows them.
 frames = Table(
     "frames",
     metadata,
     Column("hash", Text, primary_key=True),
     Column("png", LargeBinary, nullable=False),
     Column("created_at", Float, nullable=False),
+    Column("pinned", Boolean, nullable=False, server_default=false()),  # practice queries show it, so it stays
+    Column("user_id", RowId, ForeignKey("users.id"), index=True),  # who uploaded it; null: counts for nobody's quota
+)
+
+# The frames that the queries, answers and gold queries of a run show.
+frame_uses = Table(
+    "frame_uses",
+    metadata,
+    Column("run_id", Text, ForeignKey("runs.id"), primary_key=True),
+    Column("hash", Text, ForeignKey("frames.hash"), primary_key=True, index=True),
 )
 
 episodes = Table(

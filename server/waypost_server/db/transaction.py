@@ -1,5 +1,6 @@
-"""A transaction: the connection, the time, the audit log, the topics to wake. Every SQL statement runs in one."""
+"""A transaction: connection, time, audit log, topics to wake, counts. Every SQL statement runs in one."""
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -11,6 +12,7 @@ from sqlalchemy.sql import select
 
 from waypost_server.db.audit import Entry
 from waypost_server.db.clock import clock
+from waypost_server.db.counts import Count
 from waypost_server.db.prepared import Prepared, run_sql
 from waypost_server.db.wakeups import Topics
 
@@ -27,6 +29,7 @@ class Tx:
     conn: Connection
     topics: Topics = field(default_factory=set)
     recorded: list[Entry] = field(default_factory=list)
+    counted: Counter[Count] = field(default_factory=Counter)
     _now: float | None = None
 
     @property
@@ -45,11 +48,12 @@ class Tx:
     def part(self) -> Iterator[None]:
         """Run a part of the transaction. If it fails, only the part is undone."""
         run_sql(self.conn, "SAVEPOINT part")
-        recorded = len(self.recorded)
+        recorded, counted = len(self.recorded), self.counted.copy()
         try:
             yield
         except BaseException:
             del self.recorded[recorded:]
+            self.counted = counted
             if not self.conn.invalidated:
                 run_sql(self.conn, "ROLLBACK TO SAVEPOINT part")
                 run_sql(self.conn, "RELEASE SAVEPOINT part")
@@ -63,6 +67,10 @@ class Tx:
     def wake(self, *topics: str) -> None:
         """Wake the waiters of these topics after the commit."""
         self.topics.update(topics)
+
+    def count(self, what: str, kind: str, n: int = 1) -> None:
+        """Count for metrics what this transaction does. Once it is committed, the counts are added (`db.counts`)."""
+        self.counted[what, kind] += n
 
     def record(self, entry: Entry) -> None:
         """Record in the audit log what this transaction does. The row is appended as its last statement."""

@@ -31,6 +31,8 @@ RETRIED = {"40001", "40P01"}  # PostgreSQL: serialization failure, deadlock
 class Writer(Protocol):
     """Runs transactions, each all or nothing."""
 
+    load: "Load"
+
     def submit(self, work: Work[T]) -> Future[T]:
         """Queue a transaction; the future resolves after its commit.
 
@@ -44,11 +46,17 @@ class Writer(Protocol):
         ...
 
 
-class Places:
-    """The places of transactions that wait or run. With all of them taken, the next transaction is refused."""
+class Load:
+    """How much a writer has to do: the places of transactions that wait or run, and the commits so far.
+
+    With all places taken, the next transaction is refused.
+    """
 
     def __init__(self) -> None:
-        self._taken = 0
+        self.waiting = 0
+        self.commits = 0
+        self.transactions = 0
+        self.largest = 0  # the most transactions that one commit had
         self._lock = threading.Lock()
 
     def take(self) -> None:
@@ -58,17 +66,24 @@ class Places:
             StoreBusy: there is none.
         """
         with self._lock:
-            if self._taken >= MOST_WAITING:
+            if self.waiting >= MOST_WAITING:
                 raise errors.StoreBusy(
                     "Too many requests wait to be stored, so nothing was stored; send the same request again.",
                     retry_after=1,
                 )
-            self._taken += 1
+            self.waiting += 1
 
     def leave(self, _future: Future[Any]) -> None:
         """Free the place of a transaction that is done."""
         with self._lock:
-            self._taken -= 1
+            self.waiting -= 1
+
+    def committed(self, n: int) -> None:
+        """Count a commit of so many transactions."""
+        with self._lock:
+            self.commits += 1
+            self.transactions += n
+            self.largest = max(self.largest, n)
 
 
 @dataclass(frozen=True)
@@ -89,7 +104,7 @@ class GroupCommit:
     def __init__(self, engine: Engine, committed: Callable[[Topics], None]) -> None:
         self._engine = engine
         self._committed = committed
-        self._places = Places()
+        self.load = Load()
         self._jobs: SimpleQueue[Job | None] = SimpleQueue()
         self._closing = False
         self._conn: Connection | None = None
@@ -105,9 +120,9 @@ class GroupCommit:
         """
         if not self._thread.is_alive():
             raise errors.StorageFailed("The server's writer has stopped, so nothing can be stored: restart the server.")
-        self._places.take()
+        self.load.take()
         future: Future[T] = Future()
-        future.add_done_callback(self._places.leave)
+        future.add_done_callback(self.load.leave)
         self._jobs.put(Job(work, future))
         return future
 
@@ -188,6 +203,7 @@ class GroupCommit:
             outcomes = [_in_savepoint(conn, job.work, topics) for job in group]
         conn.commit()
         # The group is on disk from here on.
+        self.load.committed(len(group))
         if topics:
             self._committed(topics)
         for job, (result, error) in zip(group, outcomes, strict=True):
@@ -238,7 +254,7 @@ class CommittingThreads:
     def __init__(self, engine: Engine, committed: Callable[[Topics], None], threads: int) -> None:
         self._engine = engine
         self._committed = committed
-        self._places = Places()
+        self.load = Load()
         self._pool = ThreadPoolExecutor(threads, "waypost-write")
 
     def submit(self, work: Work[T]) -> Future[T]:
@@ -247,9 +263,9 @@ class CommittingThreads:
         Raises:
             StoreBusy: too many transactions wait.
         """
-        self._places.take()
+        self.load.take()
         future = self._pool.submit(self._run, work)
-        future.add_done_callback(self._places.leave)
+        future.add_done_callback(self.load.leave)
         return future
 
     def close(self) -> None:
@@ -267,6 +283,7 @@ class CommittingThreads:
                     raise _storage_failed(error) from error
                 time.sleep(random.uniform(0, 0.01 * 2**attempt))  # noqa: S311 - jitter
                 continue
+            self.load.committed(1)
             if topics:
                 self._committed(topics)
             return result

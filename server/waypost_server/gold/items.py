@@ -15,7 +15,7 @@ from waypost_server.db.tables import answers, gold, gold_showings, users
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import scoring, shadow
-from waypost_server.queries import checks
+from waypost_server.queries import checks, frame_uses
 from waypost_server.queries import service as queries
 from waypost_server.runs import service as runs
 
@@ -72,6 +72,7 @@ def _answered(tx: Tx, run: str, query: int) -> Item:
 
 
 def _store(tx: Tx, run: str, item: Item) -> None:
+    frame_uses.show(tx, run, frame_uses.of_asks([item.ask]))
     ask = canonical.text(item.ask.model_dump(mode="json"))
     digest = canonical.digest(ask)
     same = (gold.c.run_id == run, gold.c.digest == digest)

@@ -11,6 +11,7 @@ from starlette.requests import HTTPConnection
 from waypost import wire
 from waypost_server import errors
 from waypost_server.db.engine import Database
+from waypost_server.db.transaction import Tx
 from waypost_server.gold import scoring
 from waypost_server.queries import checks, frames
 
@@ -104,8 +105,13 @@ async def open_practice(db: Database, path: Path | None, most_frame_bytes: int) 
     """
     practice = PracticeSet(path, most_frame_bytes)
     if practice.frames:
-        await db.write(lambda tx: frames.store(tx, practice.frames))
+        await db.write(lambda tx: _keep(tx, practice.frames))
     return practice
+
+
+def _keep(tx: Tx, files: dict[str, bytes]) -> None:
+    frames.store(tx, files)
+    frames.pin(tx, files)
 
 
 async def practice_of(connection: HTTPConnection) -> PracticeSet:

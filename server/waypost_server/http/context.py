@@ -9,6 +9,7 @@ from starlette.requests import HTTPConnection
 
 from waypost_server.db.engine import Database
 from waypost_server.db.wakeups import Hub
+from waypost_server.http.traffic import Traffic
 from waypost_server.settings import Settings
 
 try:
@@ -24,6 +25,7 @@ class Context:
     settings: Settings
     db: Database
     hub: Hub
+    traffic: Traffic
 
 
 async def context_of(connection: HTTPConnection) -> Context:

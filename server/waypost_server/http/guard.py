@@ -1,10 +1,11 @@
-"""The outermost middleware: accepted host names, limits on request bodies, security headers, and failures.
+"""The outermost middleware: accepted host names, limits on request bodies, security headers, failures, and metrics.
 
 Starlette's own handler of failures runs outside of all middleware, where the security headers would be missing.
 """
 
 import asyncio
 import json
+import time
 from collections.abc import Iterable
 
 from starlette.datastructures import Headers, MutableHeaders
@@ -12,6 +13,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from waypost_server import errors
 from waypost_server.http import problems
+from waypost_server.http.traffic import Traffic
 
 LOOPBACK = ("localhost", "127.0.0.1", "::1")
 HEALTH_PATHS = ("/healthz", "/readyz")
@@ -46,8 +48,11 @@ def _add_headers(message: Message, path: str) -> None:
 class Guard:
     """ASGI middleware that refuses requests that must not reach the app."""
 
-    def __init__(self, app: ASGIApp, hosts: Iterable[str], max_body_bytes: int, body_seconds: float) -> None:
+    def __init__(
+        self, app: ASGIApp, hosts: Iterable[str], max_body_bytes: int, body_seconds: float, traffic: Traffic
+    ) -> None:
         self._app = app
+        self._traffic = traffic
         self._hosts = frozenset(name.lower() for name in (*LOOPBACK, *hosts))
         self._max_body_bytes = max_body_bytes
         self._body_seconds = body_seconds
@@ -61,13 +66,15 @@ class Guard:
             await self._app(scope, receive, send)
             return
 
-        started = False
+        started, began = False, time.perf_counter()
 
         async def send_with_headers(message: Message) -> None:
             nonlocal started
             if message["type"] == "http.response.start":
                 started = True
                 _add_headers(message, scope["path"])
+                operation = getattr(scope.get("route"), "operation_id", None)
+                self._traffic.count(operation, message["status"], time.perf_counter() - began)
             await send(message)
 
         try:

@@ -13,3 +13,5 @@ RowQuery = Annotated[int, Query(ge=0, le=2**63 - 1)]
 Seconds = Annotated[
     float, Query(ge=0, le=60, allow_inf_nan=False, description="The longest time to wait for a change, in seconds.")
 ]
+
+DryRun = Annotated[bool, Query(description="Only say what would be deleted.")]

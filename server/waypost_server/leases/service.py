@@ -107,6 +107,7 @@ def grant(
     The store allows one live assignment per query (`uq_assignments_live`).
     """
     active_time.start(tx, user)
+    tx.count("leases", "granted")
     _SET_LEASED.run(tx.conn, {"query": query})
     assignment = {
         "query_id": query,
@@ -196,7 +197,7 @@ def _reopen(
         .values(state=ending, ended_at=tx.now, reason=reason)
         .returning(assignments.c.query_id)
     ).scalars()
-    tx.conn.execute(
-        update(queries).where(queries.c.id.in_(list(ended)), queries.c.state == "leased").values(state="open")
-    )
+    reopened = list(ended)
+    tx.count("leases", ending, len(reopened))
+    tx.conn.execute(update(queries).where(queries.c.id.in_(reopened), queries.c.state == "leased").values(state="open"))
     tx.wake(wakeups.QUEUE)

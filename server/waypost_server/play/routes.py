@@ -11,9 +11,8 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 from waypost import wire
 from waypost_server import errors
 from waypost_server.auth import refusals
-from waypost_server.auth.access import ACCESS, check_role
 from waypost_server.auth.lookup import Cached, CredentialCache
-from waypost_server.auth.permissions import Caller, authenticate_socket
+from waypost_server.auth.permissions import Caller, authenticate_socket, check_call
 from waypost_server.http.context import Context, Ctx
 from waypost_server.http.parameters import RowPath
 from waypost_server.http.recheck import Recheck
@@ -72,7 +71,7 @@ async def _annotate(
     """Forward an annotator's moves for as long as the annotator is logged in and the lease is live."""
 
     async def check(caller: Caller) -> protocol.Demonstration:
-        check_role(ACCESS["playTake"], caller.name, caller.role)
+        check_call(caller, "playTake")
         return await context.db.read(lambda tx: protocol.check_taken(tx, query, caller.user, hello))
 
     async def check_again() -> None:
@@ -94,7 +93,7 @@ async def _offer(
     """Forward the states that a learner's environment returns, for as long as the learner may change the run."""
 
     async def check(caller: Caller) -> None:
-        check_role(ACCESS["playOffer"], caller.name, caller.role)
+        check_call(caller, "playOffer")
         await context.db.read(lambda tx: protocol.check_offer(tx, query, caller.user, caller.role))
 
     async def check_again() -> None:

@@ -7,10 +7,11 @@ from fastapi import APIRouter, Path, Response
 from waypost import wire
 from waypost_server import errors
 from waypost_server.auth.permissions import Allowed
+from waypost_server.db.transaction import Tx
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.problems import refusals
-from waypost_server.queries import frames
+from waypost_server.queries import frames, quotas
 
 router = APIRouter(prefix="/frames", tags=["frames"], route_class=JsonRoute)
 
@@ -21,11 +22,17 @@ HEADERS = {
 }
 
 
-@router.put("", status_code=204, operation_id="putFrames")
-async def put_frames(body: wire.FrameUpload, context: Ctx, _: Allowed) -> None:
+@router.put("", status_code=204, operation_id="putFrames", responses=refusals(errors.TooManyPictures))
+async def put_frames(body: wire.FrameUpload, context: Ctx, caller: Allowed) -> None:
     """Upload pictures of states: all of them or none. Pictures that were uploaded before do not change."""
     files = frames.decode(body.frames, context.settings.max_frame_bytes)
-    await context.db.write(lambda tx: frames.store(tx, files))
+    most = context.settings.max_user_frame_bytes
+
+    def store(tx: Tx) -> None:
+        if size := frames.store(tx, files, caller.user):
+            quotas.use_bytes(tx, caller.user, size, most)
+
+    await context.db.write(store)
 
 
 @router.post("/missing", operation_id="missingFrames")

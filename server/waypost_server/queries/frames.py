@@ -3,9 +3,10 @@
 import base64
 import binascii
 import hashlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator
+from itertools import islice
 
-from sqlalchemy import select
+from sqlalchemy import func, select, update
 
 from waypost import wire
 from waypost_server import errors
@@ -16,7 +17,7 @@ from waypost_server.errors import Unprocessable
 MOST_PIXELS = 4_096  # on a side
 _SIGNATURE = b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR"
 _END = b"\x00\x00\x00\x00IEND\xaeB`\x82"
-_AT_ONCE = 500  # hashes looked up in one statement
+_AT_ONCE = 500  # hashes in one statement
 
 
 def decode(uploaded: Iterable[wire.Frame], most_bytes: int) -> dict[str, bytes]:
@@ -50,19 +51,31 @@ def missing(tx: Tx, hashes: Iterable[str]) -> list[str]:
     """Return the hashes that no stored frame has, each once, in the given order."""
     wanted = list(dict.fromkeys(hashes))
     stored: set[str] = set()
-    for first in range(0, len(wanted), _AT_ONCE):
-        some = frames.c.hash.in_(wanted[first : first + _AT_ONCE])
-        stored |= set(tx.conn.execute(select(frames.c.hash).where(some)).scalars())
+    for some in in_parts(wanted):
+        stored |= set(tx.conn.execute(select(frames.c.hash).where(frames.c.hash.in_(some))).scalars())
     return [one for one in wanted if one not in stored]
 
 
-def store(tx: Tx, files: dict[str, bytes]) -> None:
-    """Store frames. Frames that are already stored do not change."""
-    rows = [{"hash": one, "png": files[one], "created_at": tx.now} for one in missing(tx, files)]
-    if rows:
-        tx.conn.execute(
-            tx.upsert(frames).on_conflict_do_nothing(), rows
-        )  # another learner may be storing the same frame
+def store(tx: Tx, files: dict[str, bytes], user: int | None = None) -> int:
+    """Store frames; return the size of those that were not stored before. The others do not change.
+
+    Args:
+        tx: the transaction.
+        files: PNG files by hash.
+        user: who uploads them; None if they belong to nobody.
+    """
+    rows = [{"hash": one, "png": files[one], "created_at": tx.now, "user_id": user} for one in missing(tx, files)]
+    if not rows:
+        return 0
+    # Another learner may be storing the same frame.
+    new = tx.upsert(frames).on_conflict_do_nothing().returning(func.length(frames.c.png))
+    return sum(tx.conn.execute(new, rows).scalars())
+
+
+def pin(tx: Tx, hashes: Iterable[str]) -> None:
+    """Keep stored frames also if no run shows them."""
+    for some in in_parts(hashes):
+        tx.conn.execute(update(frames).where(frames.c.hash.in_(some)).values(pinned=True))
 
 
 def find(tx: Tx, frame: str) -> bytes:
@@ -77,13 +90,8 @@ def find(tx: Tx, frame: str) -> bytes:
     return bytes(png)
 
 
-def check_stored(tx: Tx, asks: Sequence[wire.Ask]) -> None:
-    """Refuse queries with a frame that was not uploaded.
-
-    Raises:
-        Unprocessable: naming the first such frame.
-    """
-    segments = [s for ask in asks for s in (*getattr(ask, "segments", ()), *ask.context)]
-    absent = missing(tx, (frame for segment in segments for frame in segment.frames))
-    if absent:
-        raise Unprocessable(["body", "queries"], f"frame {absent[0]} is not stored; upload it before asking")
+def in_parts(hashes: Iterable[str]) -> Iterator[list[str]]:
+    """Yield the hashes in parts that fit into a statement."""
+    rest = iter(hashes)
+    while some := list(islice(rest, _AT_ONCE)):
+        yield some

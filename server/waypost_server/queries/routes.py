@@ -13,6 +13,7 @@ from waypost_server.http.parameters import RowPath, RowQuery, Seconds
 from waypost_server.http.polling import poll
 from waypost_server.http.problems import refusals
 from waypost_server.queries import service as queries
+from waypost_server.queries.quotas import OpenQueries
 from waypost_server.runs import service as runs
 
 router = APIRouter(tags=["queries"], route_class=JsonRoute)
@@ -27,9 +28,9 @@ router = APIRouter(tags=["queries"], route_class=JsonRoute)
 )
 async def ask(run: str, body: wire.AskList, context: Ctx, caller: Allowed) -> wire.Asked:
     """Ask the expert: all of the queries or none. A query that was asked before is returned with its answer."""
-    limit = context.settings.max_open_queries
+    most = OpenQueries(context.settings.max_open_queries, context.settings.max_user_open_queries)
     contents = [queries.Content.of(one) for one in body.queries]
-    return await context.db.write(lambda tx: queries.ask(tx, run, body, contents, limit, caller.user))
+    return await context.db.write(lambda tx: queries.ask(tx, run, body, contents, most, caller.user))
 
 
 @router.get("/runs/{run}/queries", operation_id="listQueries", responses=refusals(errors.NotFound))

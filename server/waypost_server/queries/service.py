@@ -15,7 +15,8 @@ from waypost_server.db import canonical, wakeups
 from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
 from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
-from waypost_server.queries import checks, frames
+from waypost_server.queries import checks, frame_uses
+from waypost_server.queries.quotas import OpenQueries, check_open
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
 
@@ -42,6 +43,7 @@ QUERIES: Select[Any] = (
     .outerjoin(_annotator, _annotator.c.id == answers.c.user_id)
     .outerjoin(assignments, and_(assignments.c.query_id == queries.c.id, IS_LIVE))
     .outerjoin(_holder, _holder.c.id == assignments.c.user_id)
+    .where(run_table.c.deleted_at.is_(None))
 )
 
 
@@ -147,7 +149,7 @@ def answered_after(tx: Tx, run: str, cursor: int, limit: int) -> wire.AnswerPage
     return wire.AnswerPage(queries=found, cursor=cursor if last is None else last)
 
 
-def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_open: int, user: int) -> wire.Asked:
+def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most: OpenQueries, user: int) -> wire.Asked:
     """Ask all of the queries or none. Queries that were asked before are returned in their present state.
 
     Raises:
@@ -160,7 +162,7 @@ def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most_
     known = _known(tx, run, contents)
     new = _new(contents, known)
     if new:
-        _check_new(tx, run_row, body, new, most_open)
+        _check_new(tx, run_row, body, new, most)
         prices = runs.prices_of(run_row.prices)
         reserves = [pricing.highest_cost(one.ask, prices).units for one in new]
         ledger.reserve(tx, runs.account(run_row), sum(reserves))
@@ -199,19 +201,14 @@ def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, st
     return list(new.values())
 
 
-def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Content], most_open: int) -> None:
+def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Content], most: OpenQueries) -> None:
     if run_row.state == "finished":
         raise errors.RunFinished("The run is finished, so it cannot ask new queries.")
     names = checks.Names.of(runs.vocabulary_of(run_row.vocabulary))
     for one in new:
         checks.check_ask(one.ask, names, ["body", "queries", body.queries.index(one.ask)])
-    frames.check_stored(tx, [one.ask for one in new])
-    waiting = select(func.count()).where(queries.c.run_id == run_row.id, queries.c.state.in_(runs.UNANSWERED))
-    n_open = tx.conn.execute(waiting).scalar_one()
-    if n_open + len(new) > most_open:
-        raise errors.TooManyQueries(
-            f"The run has {n_open} open queries and may have at most {most_open}; wait for answers.", retry_after=1
-        )
+    frame_uses.check_stored(tx, run_row.id, [one.ask for one in new])
+    check_open(tx, run_row, len(new), most)
 
 
 def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, reserves: Sequence[int]) -> list[int]:

@@ -148,8 +148,8 @@ def _units(micro: Iterable[float]) -> list[float]:
 
 
 def costs(tx: Tx, run: str) -> wire.Costs:
-    """Return the ledger's sums, and when the success rate first reached each level."""
-    row = runs.find(tx, run)
+    """Return the ledger's sums, also of a deleted run, and when the success rate first reached each level."""
+    row = runs.find_account(tx, run)
     reported, tests = tests_of(tx, run)
     spent = _ledger(tx, run)
     by_kind = {kind: _sum([entry for entry in spent if entry.kind == kind]) for kind in wire.KINDS}

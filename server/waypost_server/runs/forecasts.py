@@ -103,6 +103,7 @@ def _finished(tx: Tx, row: Record) -> Iterator[Finished]:
         .where(
             runs.c.state == "finished",
             runs.c.gold_of.is_(None),
+            runs.c.deleted_at.is_(None),
             runs.c.spent > 0,
             runs.c.algorithm == row.algorithm,
             json_text(runs.c.vocabulary, "domain") == named,

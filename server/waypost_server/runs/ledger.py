@@ -117,6 +117,7 @@ def _write(tx: Tx, kind: str, entry: Entry, sign: int) -> None:
         "created_at": tx.now,
     }
     _WRITE.run(tx.conn, row)
+    tx.count("units", kind, entry.cost.units)
 
 
 def _change(tx: Tx, run: str, spent: int, reserved: int) -> None:

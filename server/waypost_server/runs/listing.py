@@ -36,7 +36,7 @@ def list_runs(tx: Tx, chosen: Filter) -> wire.RunList:
 
 
 def _conditions(chosen: Filter) -> list[ColumnElement[bool]]:
-    conditions: list[ColumnElement[bool]] = [runs.c.gold_of.is_(None)]
+    conditions: list[ColumnElement[bool]] = [runs.c.gold_of.is_(None), runs.c.deleted_at.is_(None)]
     for word in chosen.text.lower().split():
         places = (runs.c.name, runs.c.algorithm, json_text(runs.c.vocabulary, "domain"), runs.c.id)
         conditions.append(or_(*(func.lower(place).contains(word, autoescape=True) for place in places)))

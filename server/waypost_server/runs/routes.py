@@ -9,8 +9,9 @@ from waypost_server import errors
 from waypost_server.auth.permissions import Allowed
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
+from waypost_server.http.parameters import DryRun
 from waypost_server.http.problems import refusals
-from waypost_server.runs import curves, episodes, forecasts, listing
+from waypost_server.runs import curves, deletion, episodes, forecasts, listing
 from waypost_server.runs import service as runs
 
 router = APIRouter(prefix="/runs", tags=["runs"], route_class=JsonRoute)
@@ -55,6 +56,14 @@ async def get_run(run: str, context: Ctx, _: Allowed) -> wire.Run:
 async def patch_run(run: str, body: wire.RunPatch, context: Ctx, caller: Allowed) -> wire.Run:
     """Rename, pause, resume or finish a run; set its budget or priority. Finishing a run cancels its open queries."""
     return await context.db.write(lambda tx: runs.patch(tx, run, body, caller.user))
+
+
+@router.delete("/{run}", operation_id="deleteRun", responses=refusals(errors.NotFound, errors.NotFinished))
+async def delete_run(run: str, context: Ctx, caller: Allowed, dry_run: DryRun = False) -> wire.RunDeletion:
+    """Delete what a finished run contains, for good. Its costs and its ledger stay, and so do annotators' numbers."""
+    if dry_run:
+        return await context.db.read(lambda tx: deletion.preview(tx, runs.find_own(tx, run, caller.user, caller.role)))
+    return await context.db.write(lambda tx: deletion.delete(tx, runs.lock_own(tx, run, caller.user), caller.actor))
 
 
 @router.post(

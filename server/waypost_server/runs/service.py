@@ -46,7 +46,7 @@ RUNS: Select[Any] = select(
     _success_rate.label("success_rate"),
     _episodes_done.label("episodes_done"),
     _open_queries.label("open_queries"),
-).where(runs.c.gold_of.is_(None))
+).where(runs.c.gold_of.is_(None), runs.c.deleted_at.is_(None))
 
 
 def answers_topic(run: str) -> str:
@@ -93,8 +93,9 @@ def of_row(row: Record) -> wire.Run:
     )
 
 
-_OF_ID = select(runs).where(runs.c.id == bindparam("run"))
+_OF_ID = select(runs).where(runs.c.id == bindparam("run"), runs.c.deleted_at.is_(None))
 _FIND = Prepared(_OF_ID)
+_FIND_ACCOUNT = Prepared(select(runs).where(runs.c.id == bindparam("run")))
 _LOCK = Prepared(_OF_ID.with_for_update())
 _VIEW = Prepared(RUNS.where(runs.c.id == bindparam("run")))
 
@@ -113,6 +114,15 @@ def find(tx: Tx, run: str) -> Record:
         NotFound: there is no such run.
     """
     return _one(tx, _FIND, run)
+
+
+def find_account(tx: Tx, run: str) -> Record:
+    """Return a run's row, also of a deleted run, of which only the account and the ledger are left.
+
+    Raises:
+        NotFound: there is no such run.
+    """
+    return _one(tx, _FIND_ACCOUNT, run)
 
 
 def lock(tx: Tx, run: str) -> Record:

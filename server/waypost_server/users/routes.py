@@ -12,8 +12,9 @@ from waypost_server.auth.permissions import Allowed
 from waypost_server.auth.roles import ADMINS
 from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
+from waypost_server.http.parameters import DryRun
 from waypost_server.http.problems import refusals
-from waypost_server.users import performance
+from waypost_server.users import erasure, performance
 from waypost_server.users import service as users
 
 router = APIRouter(tags=["people"], route_class=JsonRoute)
@@ -39,7 +40,11 @@ async def get_user(user: RowId, context: Ctx, _: Allowed) -> wire.User:
     return await context.db.read(lambda tx: users.view(tx, user))
 
 
-@router.patch("/users/{user}", operation_id="patchUser", responses=refusals(errors.NotFound, errors.LastAdministrator))
+@router.patch(
+    "/users/{user}",
+    operation_id="patchUser",
+    responses=refusals(errors.NotFound, errors.UserErased, errors.LastAdministrator),
+)
 async def patch_user(user: RowId, body: wire.UserPatch, context: Ctx, cache: Cached, caller: Allowed) -> wire.User:
     """Change a user's role; deactivate or reactivate a user.
 
@@ -48,6 +53,18 @@ async def patch_user(user: RowId, body: wire.UserPatch, context: Ctx, cache: Cac
     changed = await context.db.write(lambda tx: users.change(tx, user, body, caller.actor))
     cache.clear()
     return changed
+
+
+@router.delete(
+    "/users/{user}",
+    operation_id="eraseUser",
+    responses=refusals(errors.NotFound, errors.StillActive, errors.UserErased),
+)
+async def erase_user(user: RowId, context: Ctx, caller: Allowed, dry_run: DryRun = False) -> wire.UserErasure:
+    """Delete the personal data of a deactivated user, for good. Answers and their costs stay, without a name."""
+    if dry_run:
+        return await context.db.read(lambda tx: erasure.preview(tx, user))
+    return await context.db.write(lambda tx: erasure.erase(tx, user, caller.actor))
 
 
 @router.post(
@@ -91,14 +108,14 @@ async def list_numbers(context: Ctx, _: Allowed) -> wire.NumbersList:
 async def create_token(body: wire.TokenCreate, context: Ctx, caller: Allowed) -> wire.NewToken:
     """Create an API token for the caller; an administrator may create one for any user. It is shown only once.
 
-    A token that is made with a token does not outlive it.
+    A token that is made with a token does not outlive it, and has no scope that it lacks.
     """
     user = caller.user if body.user is None else body.user
     if user != caller.user and caller.role not in ADMINS:
         raise errors.Forbidden("Only an administrator may create tokens for other users.")
     made_with = None if caller.by_cookie else caller.credential
     return await context.db.write(
-        lambda tx: tokens.create_token(tx, user, body.label, body.days, made_with, caller.actor)
+        lambda tx: tokens.create_token(tx, user, body.label, body.days, body.scopes, made_with, caller.actor)
     )
 
 

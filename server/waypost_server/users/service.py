@@ -31,6 +31,8 @@ def _of_row(row: Row[Any]) -> wire.User:
         role=row.role,
         created_at=row.created_at,
         deactivated_at=row.deactivated_at,
+        erased_at=row.erased_at,
+        frame_bytes=row.frame_bytes,
         last_used_at=row._mapping.get("last_used_at"),
     )
 
@@ -115,6 +117,7 @@ def change(tx: Tx, user: int, patch: wire.UserPatch, by: Actor = COMMAND_LINE) -
 
     Raises:
         NotFound: there is no such user.
+        UserErased: the user's data were deleted.
         LastAdministrator: no active administrator would be left.
     """
     # Lock all administrators in one order, so that two of them cannot demote each other at the same time; and the
@@ -128,6 +131,8 @@ def change(tx: Tx, user: int, patch: wire.UserPatch, by: Actor = COMMAND_LINE) -
     )
     administrators = [row.id for row in locked if row.is_administrator]
     now = view(tx, user)
+    if now.erased_at is not None:
+        raise errors.UserErased(f"The personal data of user {user} were deleted; create a new user instead.")
     role = patch.role or now.role
     active = now.deactivated_at is None if patch.active is None else patch.active
     if administrators == [user] and (role != "admin" or not active):

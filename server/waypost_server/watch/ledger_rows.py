@@ -32,7 +32,7 @@ ENTRIES: Select[Any] = (
 
 def ledger_page(tx: Tx, run: str, chosen: LedgerFilter, page: RowPage) -> wire.LedgerPage:
     """Return one page of a run's ledger, newest first, and the sums over all pages."""
-    account = runs.find(tx, run)
+    account = runs.find_account(tx, run)
     conditions: list[ColumnElement[bool]] = [ledger.c.run_id == run]
     if chosen.kind is not None:
         conditions.append(ledger.c.kind == chosen.kind)

@@ -28,7 +28,7 @@ _ORDER = case((runs.c.state == "running", 0), (runs.c.state == "paused", 1), els
 
 def outlook(tx: Tx, run: str | None) -> wire.Outlook:
     """Return the runs of this server, those first that may ask next; `run` comes before all others."""
-    chosen = select(runs).where(runs.c.gold_of.is_(None)).limit(MOST_RUNS)
+    chosen = select(runs).where(runs.c.gold_of.is_(None), runs.c.deleted_at.is_(None)).limit(MOST_RUNS)
     order: list[Any] = [_ORDER, runs.c.created_at.desc()]
     if run is not None:
         order.insert(0, case((runs.c.id == run, 0), else_=1))

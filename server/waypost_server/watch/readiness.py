@@ -1,4 +1,4 @@
-"""Readiness: whether this server can store an answer now. It is found out by a real write, as small as possible."""
+"""Readiness: whether this server can store an answer now, found out by a real write, and is not about to stop."""
 
 import asyncio
 import time
@@ -30,13 +30,21 @@ class Readiness:
         self._lock = asyncio.Lock()
         self._until = float("-inf")
         self._failure: errors.StorageFailed | None = None
+        self._is_stopping = False
+
+    def stop(self) -> None:
+        """Say from now on that this server is not ready, because it is about to stop."""
+        self._is_stopping = True
 
     async def check(self) -> None:
         """Return if this server can store an answer.
 
         Raises:
+            Stopping: the server is about to stop.
             StorageFailed: with the cause.
         """
+        if self._is_stopping:
+            raise errors.Stopping("This server is about to stop; send requests to another one.", retry_after=1)
         async with self._lock:
             if self._clock() >= self._until:
                 self._failure = await self._try()

@@ -118,7 +118,8 @@ async def export_run(
     form: Annotated[wire.ExportFormat, Query(alias="format")] = "csv",
 ) -> StreamingResponse:
     """Download a run's curves, ledger or queries as CSV or JSON Lines."""
-    found = await context.db.read(lambda tx: runs.find(tx, run))
+    find = runs.find_account if table == "ledger" else runs.find
+    found = await context.db.read(lambda tx: find(tx, run))
     headers = {"Content-Disposition": f'attachment; filename="{found.id}-{table}.{form}"'}
     rows = export.stream(context, found.id, table, form)
     return StreamingResponse(rows, headers=headers, media_type=export.MEDIA_TYPES[form])

@@ -20,15 +20,16 @@ async def healthz() -> wire.Health:
     return wire.Health(status="ok", version=VERSION)
 
 
-@router.get("/readyz", operation_id="readyz", responses=refusals(errors.StorageFailed))
+@router.get("/readyz", operation_id="readyz", responses=refusals(errors.StorageFailed, errors.Stopping))
 async def readyz(readiness: Ready) -> wire.Health:
-    """Report that the database answers, has this version's tables and can be written. One check serves a second."""
+    """Report that the database can be read and written, and that the server goes on. One check serves a second."""
     await readiness.check()
     return wire.Health(status="ok", version=VERSION)
 
 
 @router.get("/metrics", operation_id="metrics", response_class=PlainTextResponse)
 async def get_metrics(context: Ctx, _: Allowed) -> PlainTextResponse:
-    """Return counts in Prometheus' text format."""
-    text = await context.db.read(metrics.text)
-    return PlainTextResponse(text, media_type="text/plain; version=0.0.4")
+    """Return metrics of the store and of this process in Prometheus' text format."""
+    held = await context.db.read(metrics.of_store)
+    done = metrics.of_process(context.db.counts, context.db.load, context.traffic)
+    return PlainTextResponse("\n".join([*held, *done, ""]), media_type="text/plain; version=0.0.4")

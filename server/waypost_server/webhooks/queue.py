@@ -98,6 +98,7 @@ def settle(tx: Tx, claim: Claim, outcome: Outcome, settings: Settings) -> Claim 
         return None
     message = tx.conn.execute(select(deliveries).where(deliveries.c.id == claim.delivery)).one()
     if outcome.reason is None:
+        tx.count("messages", "delivered")
         _record(tx, message, outcome, state="delivered", ended_at=tx.now)
         _change(tx, webhook.id, failures=0, failing_since=None, resumes_at=tx.now)
         return _next(tx, webhook, settings.webhook_seconds)
@@ -109,8 +110,10 @@ def _fail(tx: Tx, webhook: Row[Any], message: Row[Any], outcome: Outcome, settin
     """Pause the webhook, and its message for twice as long, so that one bad message does not hold up the others."""
     failures, since = webhook.failures + 1, webhook.failing_since or tx.now
     if tx.now - message.queued_at >= settings.webhook_give_up_seconds:
+        tx.count("messages", "given_up")
         _record(tx, message, outcome, state="given_up", ended_at=tx.now)
     else:
+        tx.count("messages", "failed")
         longer = pause(max(failures, message.attempts + 1), settings.webhook_retry_seconds)
         _record(tx, message, outcome, next_at=tx.now + 2 * longer)
     changes = {

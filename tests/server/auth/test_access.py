@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
+import httpx2
 import pytest
 from sqlalchemy import update
 from starlette.testclient import TestClient
@@ -36,6 +37,7 @@ ADMIN = {"admin"}
 MATRIX: dict[str, set[str]] = {
     "createRun": LEARNERS,
     "patchRun": OWNER,
+    "deleteRun": OWNER,
     "reportEpisodes": OWNER,
     "ask": OWNER,
     "useAnswer": OWNER,
@@ -63,6 +65,7 @@ MATRIX: dict[str, set[str]] = {
     "createLoginLink": ADMIN,
     "getUser": ADMIN,
     "patchUser": ADMIN,
+    "eraseUser": ADMIN,
     "listTokens": ADMIN,
     "getNumbers": ADMIN,
     "listNumbers": ADMIN,
@@ -127,6 +130,10 @@ class Scene:
         self.held = holder.lease(run=self.run, kinds=["hier_demo"])
         self.practice = owner.get("/practice")["queries"][0]["ask"]
         self.user = service.admin.post("/users", {"name": f"somebody in {self.run}", "role": "viewer"}, 201)["id"]
+        self.finished = owner.create_run()
+        owner.patch(self.finished, state="finished")
+        self.former = service.admin.post("/users", {"name": f"former in {self.run}", "role": "viewer"}, 201)["id"]
+        service.admin.call("PATCH", f"/users/{self.former}", {"active": False})
         self.webhook = service.admin.post("/webhooks", {"url": HOOK, "topics": ["answer.retracted"]}, 201)["webhook"][
             "id"
         ]
@@ -134,13 +141,17 @@ class Scene:
 
     def call(self, name: str, caller: Caller | None) -> int:
         """Call an operation with a valid request about an object of the scene, and return the status."""
+        return self.send(name, caller).status_code
+
+    def send(self, name: str, caller: Caller | None) -> httpx2.Response:
+        """Call an operation with a valid request about an object of the scene."""
         method, path = PLACES[name]
         place = path.format(
-            run=self.run,
+            run=self.finished if name == "deleteRun" else self.run,
             query=0 if name == "practice" else self.answered["query"]["id"],
             assignment=self.answered["id"] if name == "retract" else self.held["id"],
             item=self.item,
-            user=self.user,
+            user=self.former if name == "eraseUser" else self.user,
             token=self.own_token(caller) if name == "revokeToken" else 1,
             frame=self.frame["hash"],
             webhook=self.webhook,
@@ -149,7 +160,7 @@ class Scene:
         body: Any = {"json": BODIES[name](self)} if name in BODIES else {}
         params = {"part": "queries"} if name == "listRecords" else {}
         headers = {} if caller is None else caller.headers
-        return self.service.client.request(method, place, headers=headers, params=params, **body).status_code
+        return self.service.client.request(method, place, headers=headers, params=params, **body)
 
     def own_token(self, caller: Caller | None) -> int:
         """A token of the caller, who may revoke it."""

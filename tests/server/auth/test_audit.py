@@ -19,7 +19,7 @@ from tests.server.kit import API, Json, Service, in_process, query, right_answer
 from typer.testing import CliRunner
 
 from waypost_server.auth import refusals
-from waypost_server.cli import app
+from waypost_server.cli.main import app
 from waypost_server.db.audit import Entry, nobody
 from waypost_server.db.engine import Database
 from waypost_server.db.transaction import Tx

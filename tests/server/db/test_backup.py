@@ -16,7 +16,7 @@ import pytest
 from tests.server.kit import Service, in_process, make_older_store, query, schema_of, together
 from typer.testing import CliRunner
 
-from waypost_server.cli import app
+from waypost_server.cli.main import app
 from waypost_server.db.migration import migrate
 from waypost_server.db.schema import newest
 

@@ -105,4 +105,4 @@ def test_metrics_count_webhooks_and_their_messages(sqlite_url: str) -> None:
         delivered(service, webhook, 1)
         text = service.client.get("/metrics", headers=service.viewer.headers).text
     assert 'waypost_webhooks{state="on"} 1' in text
-    assert 'waypost_webhook_messages{state="delivered"} 1' in text
+    assert 'waypost_webhook_attempts_total{outcome="delivered"} 1' in text

@@ -16,7 +16,7 @@ export interface paths {
          *
          *     If the query wanted as `next` cannot be leased, the answer stays accepted, and `next_problem` says why.
          *
-         *     Needs the role admin or annotator. The assignment must be the caller's own.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["answer"];
         delete?: never;
@@ -38,7 +38,7 @@ export interface paths {
          * Answer Batch
          * @description Answer several queries, stored by one commit. Each answer has a receipt, or the problem why it does not count.
          *
-         *     Needs the role admin or annotator.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator.
          */
         post: operations["answerBatch"];
         delete?: never;
@@ -60,7 +60,7 @@ export interface paths {
          * Retract
          * @description Retract an answer that the learner has not used: refund it, and lease its query to the caller again.
          *
-         *     Needs the role admin or annotator. The assignment must be the caller's own.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["retract"];
         delete?: never;
@@ -80,7 +80,7 @@ export interface paths {
          * My Assignments
          * @description List the caller's live assignments, so that a reloaded tab can continue with them.
          *
-         *     Needs the role admin or annotator.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator.
          */
         get: operations["myAssignments"];
         put?: never;
@@ -88,7 +88,7 @@ export interface paths {
          * Lease
          * @description Lease the next query; if there is none, wait for one.
          *
-         *     Needs the role admin or annotator.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator.
          */
         post: operations["lease"];
         delete?: never;
@@ -110,7 +110,7 @@ export interface paths {
          * Lease Batch
          * @description Lease the next queries, for a bot that answers several at once; wait for the first. The list may be empty.
          *
-         *     Needs the role admin or annotator.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator.
          */
         post: operations["leaseBatch"];
         delete?: never;
@@ -132,7 +132,7 @@ export interface paths {
          * Leave
          * @description Close a browser tab: release its assignments, except those in `keep`, and refuse its lease requests.
          *
-         *     Needs the role admin or annotator.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator.
          */
         post: operations["leave"];
         delete?: never;
@@ -154,7 +154,7 @@ export interface paths {
          * Renew
          * @description Renew the lease: it lasts its full length from now, but not longer than the server's cap.
          *
-         *     Needs the role admin or annotator. The assignment must be the caller's own.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["renew"];
         delete?: never;
@@ -176,7 +176,7 @@ export interface paths {
          * Release
          * @description Return the query to the queue without an answer. With `skip`, the caller does not get it again.
          *
-         *     Needs the role admin or annotator. The assignment must be the caller's own.
+         *     A token with scopes needs the scope answer. Needs the role admin or annotator. The assignment must be the caller's own.
          */
         post: operations["release"];
         delete?: never;
@@ -204,7 +204,7 @@ export interface paths {
          * Ask
          * @description Ask the expert: all of the queries or none. A query that was asked before is returned with its answer.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["ask"];
         delete?: never;
@@ -270,7 +270,7 @@ export interface paths {
          * Use Answer
          * @description Mark the answer as used. From then on it can no longer be retracted.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["useAnswer"];
         delete?: never;
@@ -298,7 +298,7 @@ export interface paths {
          * Create Run
          * @description Create a run: one learner's training with one algorithm, domain, seed and cost model.
          *
-         *     Needs the role admin or learner.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner.
          */
         post: operations["createRun"];
         delete?: never;
@@ -323,14 +323,20 @@ export interface paths {
         get: operations["getRun"];
         put?: never;
         post?: never;
-        delete?: never;
+        /**
+         * Delete Run
+         * @description Delete what a finished run contains, for good. Its costs and its ledger stay, and so do annotators' numbers.
+         *
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         */
+        delete: operations["deleteRun"];
         options?: never;
         head?: never;
         /**
          * Patch Run
          * @description Rename, pause, resume or finish a run; set its budget or priority. Finishing a run cancels its open queries.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         patch: operations["patchRun"];
         trace?: never;
@@ -348,7 +354,7 @@ export interface paths {
          * Report Episodes
          * @description Report the results of episodes. Reporting the same result again changes nothing.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["reportEpisodes"];
         delete?: never;
@@ -633,7 +639,7 @@ export interface paths {
          * Put Frames
          * @description Upload pictures of states: all of them or none. Pictures that were uploaded before do not change.
          *
-         *     Needs the role admin or learner.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner.
          */
         put: operations["putFrames"];
         post?: never;
@@ -656,7 +662,7 @@ export interface paths {
          * Missing Frames
          * @description Return the hashes of frames that are not stored yet.
          *
-         *     Needs the role admin or learner.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner.
          */
         post: operations["missingFrames"];
         delete?: never;
@@ -698,7 +704,7 @@ export interface paths {
          * List Users
          * @description List all users.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listUsers"];
         put?: never;
@@ -706,7 +712,7 @@ export interface paths {
          * Create User
          * @description Create a user: a person or a program that may call the server.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         post: operations["createUser"];
         delete?: never;
@@ -726,12 +732,18 @@ export interface paths {
          * Get User
          * @description Return a user.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["getUser"];
         put?: never;
         post?: never;
-        delete?: never;
+        /**
+         * Erase User
+         * @description Delete the personal data of a deactivated user, for good. Answers and their costs stay, without a name.
+         *
+         *     A token with scopes needs the scope manage. Needs the role admin.
+         */
+        delete: operations["eraseUser"];
         options?: never;
         head?: never;
         /**
@@ -740,7 +752,7 @@ export interface paths {
          *
          *     Deactivation revokes sessions, tokens and login links, and releases leases, all immediately. Answers stay.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         patch: operations["patchUser"];
         trace?: never;
@@ -758,7 +770,7 @@ export interface paths {
          * Create Login Link
          * @description Create a one-time login code; the link is `<this server>/login#<code>`.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         post: operations["createLoginLink"];
         delete?: never;
@@ -778,7 +790,7 @@ export interface paths {
          * List Tokens
          * @description List a user's API tokens, without their secrets.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listTokens"];
         put?: never;
@@ -800,7 +812,7 @@ export interface paths {
          * Get Numbers
          * @description Return a user's performance: number of answers, speed, accuracy on gold queries.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["getNumbers"];
         put?: never;
@@ -822,7 +834,7 @@ export interface paths {
          * List Numbers
          * @description Return the performance of every annotator who ever answered.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listNumbers"];
         put?: never;
@@ -846,9 +858,9 @@ export interface paths {
          * Create Token
          * @description Create an API token for the caller; an administrator may create one for any user. It is shown only once.
          *
-         *     A token that is made with a token does not outlive it.
+         *     A token that is made with a token does not outlive it, and has no scope that it lacks.
          *
-         *     Every role may call it. The token must be the caller's own; administrators may do it for every token.
+         *     A token with scopes needs the scope manage. Every role may call it. The token must be the caller's own; administrators may do it for every token.
          */
         post: operations["createToken"];
         delete?: never;
@@ -871,7 +883,7 @@ export interface paths {
          * Revoke Token
          * @description Revoke one of the caller's tokens; an administrator may revoke any. It takes effect immediately.
          *
-         *     Every role may call it. The token must be the caller's own; administrators may do it for every token.
+         *     A token with scopes needs the scope manage. Every role may call it. The token must be the caller's own; administrators may do it for every token.
          */
         delete: operations["revokeToken"];
         options?: never;
@@ -991,7 +1003,7 @@ export interface paths {
          * Logout Everywhere
          * @description End all of the caller's browser sessions, including this one. API tokens stay valid.
          *
-         *     Every role may call it.
+         *     A token with scopes needs the scope manage. Every role may call it.
          */
         delete: operations["logoutEverywhere"];
         options?: never;
@@ -1010,7 +1022,7 @@ export interface paths {
          * List Gold
          * @description List the run's gold queries, newest first, each with its number of answers and their agreement.
          *
-         *     Needs the role admin or learner.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner.
          */
         get: operations["listGold"];
         put?: never;
@@ -1021,7 +1033,7 @@ export interface paths {
          *     The run's `gold_rate` is the share of each annotator's queries that are gold. They look like the learner's queries.
          *     They are never in the run's ledger, and the learner never sees them.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["addGold"];
         delete?: never;
@@ -1044,7 +1056,7 @@ export interface paths {
          * Retire Gold
          * @description Retire a gold query: no annotator gets it any more. Answers to it stay.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         delete: operations["retireGold"];
         options?: never;
@@ -1063,7 +1075,7 @@ export interface paths {
          * List Review
          * @description List one page of a run's answers to review, newest query first.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         get: operations["listReview"];
         put?: never;
@@ -1109,7 +1121,7 @@ export interface paths {
          * Comment
          * @description Comment on a query. Annotators do not see it.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["comment"];
         delete?: never;
@@ -1133,7 +1145,7 @@ export interface paths {
          *
          *     Whoever gets the query next sees the comment, and the annotator who gave the answer finds it at `GET /me/returned`.
          *
-         *     Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
          */
         post: operations["sendBack"];
         delete?: never;
@@ -1219,7 +1231,7 @@ export interface paths {
          * List Webhooks
          * @description List all webhooks.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listWebhooks"];
         put?: never;
@@ -1227,7 +1239,7 @@ export interface paths {
          * Create Webhook
          * @description Create a webhook for an address that the operator has allowed. Its signing secret is shown only once.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         post: operations["createWebhook"];
         delete?: never;
@@ -1247,7 +1259,7 @@ export interface paths {
          * Get Webhook
          * @description Return a webhook.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["getWebhook"];
         put?: never;
@@ -1256,7 +1268,7 @@ export interface paths {
          * Delete Webhook
          * @description Delete a webhook and its messages.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         delete: operations["deleteWebhook"];
         options?: never;
@@ -1265,7 +1277,7 @@ export interface paths {
          * Patch Webhook
          * @description Change a webhook, or turn it off or on. Turning it on tries its pending messages immediately.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         patch: operations["patchWebhook"];
         trace?: never;
@@ -1283,7 +1295,7 @@ export interface paths {
          * Ping Webhook
          * @description Send a test message.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         post: operations["pingWebhook"];
         delete?: never;
@@ -1303,7 +1315,7 @@ export interface paths {
          * List Deliveries
          * @description List one page of a webhook's messages, newest first. Messages that ended more than a week ago are deleted.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listDeliveries"];
         put?: never;
@@ -1327,7 +1339,7 @@ export interface paths {
          * Redeliver
          * @description Send a message again, with the same id and content.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         post: operations["redeliver"];
         delete?: never;
@@ -1347,7 +1359,7 @@ export interface paths {
          * List Audit
          * @description List one page of the audit log, newest first: who did what with access, and what was refused.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["listAudit"];
         put?: never;
@@ -1369,7 +1381,7 @@ export interface paths {
          * Export Audit
          * @description Download the whole audit log, oldest rows first, with all hashes.
          *
-         *     Needs the role admin.
+         *     A token with scopes needs the scope manage. Needs the role admin.
          */
         get: operations["exportAudit"];
         put?: never;
@@ -1409,7 +1421,7 @@ export interface paths {
         };
         /**
          * Readyz
-         * @description Report that the database answers, has this version's tables and can be written. One check serves a second.
+         * @description Report that the database can be read and written, and that the server goes on. One check serves a second.
          */
         get: operations["readyz"];
         put?: never;
@@ -1429,7 +1441,7 @@ export interface paths {
         };
         /**
          * Get Metrics
-         * @description Return counts in Prometheus' text format.
+         * @description Return metrics of the store and of this process in Prometheus' text format.
          *
          *     Needs the role admin or learner or viewer.
          */
@@ -2416,7 +2428,7 @@ export interface components {
              * Action
              * @enum {string}
              */
-            action: "login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated";
+            action: "login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "run.deleted" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated" | "user.erased";
             /**
              * Object
              * @description The user, token or run that it is about: `user/7`; null if there is none.
@@ -4739,6 +4751,82 @@ export interface components {
             second_answers: number;
         };
         /**
+         * RunDeletion
+         * @description What the deletion of a run deleted, or would delete, sent by the server. The counts include its gold queries.
+         */
+        RunDeletion: {
+            /**
+             * Run
+             * @description The id of the run.
+             */
+            run: string;
+            /**
+             * Dry Run
+             * @description Whether nothing was deleted, because the request only asked.
+             */
+            dry_run: boolean;
+            /**
+             * Queries
+             * @description Queries that lose their content.
+             */
+            queries: number;
+            /**
+             * Answers
+             * @description Answers that lose their content; their costs and times stay.
+             */
+            answers: number;
+            /**
+             * Gold
+             * @description Known answers of gold queries.
+             */
+            gold: number;
+            /**
+             * Reasons
+             * @description Assignments with a reason or the name of a browser tab.
+             */
+            reasons: number;
+            /**
+             * Comments
+             * @description Comments on queries.
+             */
+            comments: number;
+            /**
+             * Events
+             * @description Events.
+             */
+            events: number;
+            /**
+             * Episodes
+             * @description Results of episodes.
+             */
+            episodes: number;
+            /**
+             * Messages
+             * @description Delivered or given up webhook messages.
+             */
+            messages: number;
+            /**
+             * Frames
+             * @description Pictures that no other run shows.
+             */
+            frames: number;
+            /**
+             * Frame Bytes
+             * @description The size of these pictures.
+             */
+            frame_bytes: number;
+            /**
+             * Kept Entries
+             * @description Entries of the ledger; they stay.
+             */
+            kept_entries: number;
+            /**
+             * Kept Units
+             * @description The sum of these entries: what the run has spent, in units.
+             */
+            kept_units: number;
+        };
+        /**
          * RunList
          * @description One page of runs, sent by the server.
          */
@@ -5022,6 +5110,11 @@ export interface components {
              * @description When it expires, in seconds since the epoch; null if it does not.
              */
             expires_at: number | null;
+            /**
+             * Scopes
+             * @description What it may be used for; null for everything that the user may do.
+             */
+            scopes: ("read" | "answer" | "learn" | "manage")[] | null;
         };
         /**
          * TokenCreate
@@ -5043,6 +5136,11 @@ export interface components {
              * @description For how many days the token is valid; null until it is revoked.
              */
             days?: number | null;
+            /**
+             * Scopes
+             * @description What the token may be used for, as far as its user may do it; every scope includes `read`. Null: everything.
+             */
+            scopes?: ("read" | "answer" | "learn" | "manage")[] | null;
         };
         /**
          * TokenList
@@ -5077,10 +5175,20 @@ export interface components {
              */
             deactivated_at: number | null;
             /**
+             * Erased At
+             * @description When the user's personal data were deleted, in seconds since the epoch; null if they were not.
+             */
+            erased_at: number | null;
+            /**
              * Last Used At
              * @description When the user last called, in seconds since the epoch, to the minute; null if never.
              */
             last_used_at: number | null;
+            /**
+             * Frame Bytes
+             * @description The size of the pictures that the user has uploaded.
+             */
+            frame_bytes: number;
         };
         /**
          * UserCreate
@@ -5094,6 +5202,52 @@ export interface components {
              * @enum {string}
              */
             role: "admin" | "learner" | "annotator" | "viewer";
+        };
+        /**
+         * UserErasure
+         * @description What the deletion of a user's personal data deleted, or would delete beside the name, sent by the server.
+         */
+        UserErasure: {
+            /**
+             * User
+             * @description The id of the user.
+             */
+            user: number;
+            /**
+             * Dry Run
+             * @description Whether nothing was deleted, because the request only asked.
+             */
+            dry_run: boolean;
+            /**
+             * Credentials
+             * @description Tokens, sessions and login links, with their labels and last uses.
+             */
+            credentials: number;
+            /**
+             * Comments
+             * @description Comments that the user wrote.
+             */
+            comments: number;
+            /**
+             * Reasons
+             * @description Assignments with a reason that the user gave, or the name of a browser tab.
+             */
+            reasons: number;
+            /**
+             * Traces
+             * @description Notes of when the user was last at work, and in which tabs.
+             */
+            traces: number;
+            /**
+             * Kept Answers
+             * @description Answers that count; they stay, without a name.
+             */
+            kept_answers: number;
+            /**
+             * Kept Units
+             * @description The cost of these answers, in units.
+             */
+            kept_units: number;
         };
         /**
          * UserList
@@ -6838,6 +6992,85 @@ export interface operations {
             };
         };
     };
+    deleteRun: {
+        parameters: {
+            query?: {
+                /** @description Only say what would be deleted. */
+                dry_run?: boolean;
+            };
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunDeletion"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The run is not finished */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     patchRun: {
         parameters: {
             query?: never;
@@ -7897,6 +8130,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description Too many pictures */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The body is too large */
             413: {
                 headers: {
@@ -8291,6 +8533,85 @@ export interface operations {
             };
         };
     };
+    eraseUser: {
+        parameters: {
+            query?: {
+                /** @description Only say what would be deleted. */
+                dry_run?: boolean;
+            };
+            header?: never;
+            path: {
+                user: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UserErasure"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The user is active; The user's data were deleted */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     patchUser: {
         parameters: {
             query?: never;
@@ -8342,7 +8663,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The last administrator stays */
+            /** @description The user's data were deleted; The last administrator stays */
             409: {
                 headers: {
                     [name: string]: unknown;
@@ -10613,7 +10934,7 @@ export interface operations {
         parameters: {
             query?: {
                 actor?: string | null;
-                action?: ("login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated") | null;
+                action?: ("login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "run.deleted" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated" | "user.erased") | null;
                 /** @description From this time on, in seconds since the epoch. */
                 since?: number | null;
                 /** @description Before this time, in seconds since the epoch. */
@@ -10801,7 +11122,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description The store failed */
+            /** @description The store failed; The server is stopping */
             503: {
                 headers: {
                     [name: string]: unknown;

@@ -10,12 +10,14 @@ export function namesOfActions(): Readonly<Record<AuditAction, string>> {
     logout: t('logged out'),
     'link.created': t('made a login link'),
     'permission.refused': t('✕ not permitted'),
+    'run.deleted': t('deleted a run'),
     'token.created': t('created a token'),
     'token.revoked': t('revoked a token'),
     'user.created': t('created a user'),
     'user.role_changed': t('changed a role'),
     'user.deactivated': t('deactivated a user'),
     'user.reactivated': t('reactivated a user'),
+    'user.erased': t('deleted the data of a user'),
   };
 }
 

@@ -3,6 +3,7 @@
 import secrets
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import Any
 
 from sqlalchemy import bindparam, insert, update
@@ -15,7 +16,7 @@ from waypost_server.db.tables import answers, assignments, queries
 from waypost_server.db.transaction import Tx
 from waypost_server.errors import Location, Unprocessable
 from waypost_server.gold import scoring
-from waypost_server.queries import checks, frames
+from waypost_server.queries import checks, frame_uses
 from waypost_server.queries.service import Content
 
 FindAnnotator = Callable[[Tx, str], int]
@@ -51,7 +52,7 @@ def insert_queries(tx: Tx, target: Target, records: Sequence[wire.QueryRecord]) 
     """
     for record in records:
         _check_query(record, target.names)
-    frames.check_stored(tx, [record.ask for record in records])
+    frame_uses.check_stored(tx, target.run.id, [record.ask for record in records])
     ids = tx.conn.execute(_INSERT_QUERY, [_query_row(target, record) for record in records]).scalars().all()
     held = [(query, one) for query, record in zip(ids, records, strict=True) for one in _history(record)]
     if not held:
@@ -65,6 +66,8 @@ def insert_queries(tx: Tx, target: Target, records: Sequence[wire.QueryRecord]) 
     ]
     if not given:
         return
+    contents = [past.answer.content for record in records for past in _history(record) if past.answer is not None]
+    frame_uses.show(tx, target.run.id, chain.from_iterable(frame_uses.of_answer(content) for content in contents))
     numbers = tx.conn.execute(_INSERT_ANSWER, given).scalars().all()
     last = dict(zip((row["query_id"] for row in given), numbers, strict=True))  # the answer that counts is the last
     counting = [

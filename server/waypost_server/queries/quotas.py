@@ -1,0 +1,64 @@
+"""Quotas: how many open queries a run and a learner may have, and how many bytes of pictures a learner."""
+
+from dataclasses import dataclass
+
+from sqlalchemy import ColumnElement, func, or_, select, text, update
+
+from waypost_server import errors
+from waypost_server.db.prepared import Record
+from waypost_server.db.tables import queries, runs, users
+from waypost_server.db.transaction import Tx
+from waypost_server.runs.service import UNANSWERED
+
+LOCK = 7_296_013  # with the id of a user: who holds it may add to the user's open queries (PostgreSQL)
+
+
+@dataclass(frozen=True)
+class OpenQueries:
+    """The maximum number of unanswered queries: of one run, and of all runs of one user together."""
+
+    of_run: int
+    of_user: int
+
+
+def check_open(tx: Tx, run: Record, n_new: int, most: OpenQueries) -> None:
+    """Refuse new queries of a locked run that are more than its owner or the run may have.
+
+    Raises:
+        TooManyQueries: with the numbers.
+    """
+    n_open = _count(tx, queries.c.run_id == run.id)
+    if n_open + n_new > most.of_run:
+        raise errors.TooManyQueries(
+            f"The run has {n_open} open queries and may have at most {most.of_run}; wait for answers.", retry_after=1
+        )
+    if not tx.one_writer:  # runs of the same user are locked by different transactions
+        tx.conn.execute(text("SELECT pg_advisory_xact_lock(:lock, :user)"), {"lock": LOCK, "user": run.user_id})
+    others = (runs.c.user_id == run.user_id, runs.c.state != "finished", runs.c.gold_of.is_(None), runs.c.id != run.id)
+    n_others = _count(tx, queries.c.run_id.in_(select(runs.c.id).where(*others)))
+    if n_open + n_others + n_new > most.of_user:
+        raise errors.TooManyQueries(
+            f"The runs of this learner have {n_open + n_others} open queries and may have at most {most.of_user}; wait "
+            "for answers, or finish a run.",
+            retry_after=1,
+        )
+
+
+def _count(tx: Tx, of_runs: ColumnElement[bool]) -> int:
+    unanswered = or_(*(queries.c.state == state for state in UNANSWERED))
+    return int(tx.conn.execute(select(func.count()).where(of_runs, unanswered)).scalar_one())
+
+
+def use_bytes(tx: Tx, user: int, more: int, most: int) -> None:
+    """Add the size of new pictures to what a user has uploaded.
+
+    Raises:
+        TooManyPictures: it would be more than the user may have.
+    """
+    changed = update(users).where(users.c.id == user).values(frame_bytes=users.c.frame_bytes + more)
+    used = int(tx.conn.execute(changed.returning(users.c.frame_bytes)).scalar_one())
+    if used > most:
+        raise errors.TooManyPictures(
+            f"Your pictures have {used - more} bytes, and these have {more} more; they may have at most {most}. Delete "
+            "finished runs that you no longer need, or ask the operator for more."
+        )
