@@ -8,7 +8,7 @@ from waypost import wire
 from waypost_server import errors
 from waypost_server.auth.credentials import Limits, issue, limits_of, revoke, scopes_of, valid
 from waypost_server.db.audit import COMMAND_LINE, Actor, Entry
-from waypost_server.db.clock import DAY
+from waypost_server.db.functions import DAY
 from waypost_server.db.tables import credentials, users
 from waypost_server.db.transaction import Tx
 

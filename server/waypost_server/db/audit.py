@@ -14,7 +14,7 @@ from sqlalchemy import Connection, Row, insert, select, text
 
 from waypost.wire import AuditAction
 from waypost_server.db import canonical
-from waypost_server.db.clock import clock
+from waypost_server.db.functions import clock
 from waypost_server.db.tables import audit
 
 LOCK = 7_296_012  # an arbitrary number, like the one of `schema`: who holds this lock may append

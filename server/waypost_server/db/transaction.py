@@ -11,8 +11,8 @@ from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.sql import select
 
 from waypost_server.db.audit import Entry
-from waypost_server.db.clock import clock
 from waypost_server.db.counts import Count
+from waypost_server.db.functions import clock
 from waypost_server.db.prepared import Prepared, run_sql
 from waypost_server.db.wakeups import Topics
 

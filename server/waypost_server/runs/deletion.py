@@ -12,7 +12,7 @@ from waypost import wire
 from waypost.prices import to_units
 from waypost_server import errors
 from waypost_server.db.audit import COMMAND_LINE, Actor, Entry
-from waypost_server.db.clock import DAY
+from waypost_server.db.functions import DAY
 from waypost_server.db.prepared import Record
 from waypost_server.db.steps import Step, count, take, take_time
 from waypost_server.db.tables import (

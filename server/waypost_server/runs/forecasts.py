@@ -9,7 +9,7 @@ from sqlalchemy import func, select
 
 from waypost import wire
 from waypost.prices import MICRO, to_units
-from waypost_server.db.json_text import json_text
+from waypost_server.db.functions import json_text
 from waypost_server.db.prepared import Record
 from waypost_server.db.tables import answers, assignments, ledger, runs
 from waypost_server.db.transaction import Tx

@@ -7,7 +7,7 @@ from sqlalchemy import Select, func, or_, select
 from sqlalchemy.sql.elements import ColumnElement
 
 from waypost import wire
-from waypost_server.db.json_text import json_text
+from waypost_server.db.functions import json_text
 from waypost_server.db.tables import runs
 from waypost_server.db.transaction import Tx
 from waypost_server.runs.service import RUNS, of_row

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from sqlalchemy import ColumnElement, and_, delete, exists, func, or_, select, update
 
-from waypost_server.db.clock import DAY
+from waypost_server.db.functions import DAY
 from waypost_server.db.tables import frame_uses, frames, users
 from waypost_server.db.transaction import Tx
 

@@ -12,7 +12,7 @@ from sqlalchemy import Row, Select, and_, case, func, select
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.clock import DAY
+from waypost_server.db.functions import DAY
 from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import results

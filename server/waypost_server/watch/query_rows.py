@@ -10,7 +10,7 @@ from sqlalchemy.sql.selectable import FromClause
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.json_text import json_text
+from waypost_server.db.functions import json_text
 from waypost_server.db.tables import (
     DIFFERS,
     IS_LIVE,
