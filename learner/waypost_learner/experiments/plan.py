@@ -254,8 +254,8 @@ def _room_imitation(
 _BYTES = "network.scale=255"
 _PAPER_ROOM = replace(_ROOM, preset="paper", episodes=3_000, values=_BYTES)
 
-# Without demonstrations, attempts at a subgoal explore places until it was reached. The door takes some hundred attempts,
-# and an episode has at most one.
+# Without demonstrations, attempts at a subgoal explore places until it was reached. The door takes some hundred
+# attempts, and an episode has at most one.
 _EXPLORING = replace(_ROOM, episodes=2_500, values="dqn.exploration.wander=40")
 
 _MONTEZUMA = (
