@@ -106,11 +106,14 @@ class Session:
             self.did["answer"] += 1
 
     def _err(self) -> None:
-        """Send a wrong answer, and take it back. Without a network, that has to wait."""
+        """Send a wrong answer, and take it back, unless the learner was faster."""
         if (shown := self._question()) is None:
             return
         self._give(shown)
         self._pause()
+        if self._random.random() < 0.1:
+            self._learner.answer_of(shown)
+            self._learner.use(shown)
         self._take_back(shown)
 
     def _take_back(self, shown: int) -> None:
@@ -272,11 +275,10 @@ class Session:
         self._asked |= dict(zip(self._learner.ask(self._run, *asks), asks, strict=True))
 
     def _learn(self) -> None:
-        """Ask more, and use old answers, as a learner does. Some are used at once, so that it is too late for U."""
+        """Ask more, and use old answers, as a learner does."""
         if len(self._asked) - len(set(self._meant)) < OPEN:
             self._ask_more()
-        at_once = self._random.random() < 0.1
-        while self._answered and (len(self._answered) > USED_AFTER or at_once):
+        while len(self._answered) > USED_AFTER:
             number = self._answered.pop(0)
             if self._learner.query(number)["state"] == "answered":  # not if it was just taken back
                 self._learner.use(number)
