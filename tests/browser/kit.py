@@ -2,7 +2,7 @@
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -266,3 +266,17 @@ def wait_for_heading(page: Page, text: str) -> None:
     heading = page.get_by_role("heading", name=text, exact=True)
     heading.wait_for()
     expect(heading).to_be_focused()
+
+
+def begun_run(
+    learner: Learner, open_page: Callable[..., Page], name: str, budget: float, **opened: Any
+) -> tuple[str, Page]:
+    """Return a run with three episodes, and an administrator's page that has answered one of its two questions."""
+    run = learner.create_run(name, budget=budget)
+    learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
+    page = open_page(f"/work?run={run}", role="admin", **opened)
+    wait_for_heading(page, ask("inspect_full")["question"])
+    page.keyboard.press("f")
+    wait_for_heading(page, ask("label_hi")["question"])
+    learner.report(run, [True, False, True])
+    return run, page

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import WEB, Open
-from tests.browser.kit import Learner, ask, wait_for_heading
+from tests.browser.kit import Learner, ask, begun_run, wait_for_heading
 
 KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
 SIZES = ({"width": 1280, "height": 800}, {"width": 768, "height": 1024}, {"width": 390, "height": 844})
@@ -68,13 +68,7 @@ def test_dialogs_are_accessible(open_page: Open, learner: Learner, scheme: str) 
 
 
 def test_runs_are_accessible(open_page: Open, learner: Learner, scheme: str) -> None:
-    run = learner.create_run("watched", budget=500.0)
-    learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
-    page = open_page(f"/work?run={run}", role="admin", scheme=scheme)
-    wait_for_heading(page, ask("inspect_full")["question"])
-    page.keyboard.press("f")
-    wait_for_heading(page, ask("label_hi")["question"])
-    learner.report(run, [True, False, True])
+    run, page = begun_run(learner, open_page, "watched", 500.0, scheme=scheme)
     page.goto(f"/runs/{run}")
     page.get_by_role("slider").first.wait_for()
     for summary in page.get_by_text("As a table").all():

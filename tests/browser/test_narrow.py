@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import Open
-from tests.browser.kit import Learner, ask, wait_for_heading
+from tests.browser.kit import Learner, ask, begun_run, wait_for_heading
 
 PHONE = {"width": 390, "height": 844}
 KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
@@ -38,14 +38,8 @@ def test_work_fits_a_phone(open_page: Open, learner: Learner, kind: str) -> None
 
 
 def test_runs_fit_a_phone(open_page: Open, learner: Learner) -> None:
-    run = learner.create_run("a run whose name is rather long for a phone", budget=5000.0)
-    learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
-    page = open_page(f"/work?run={run}", role="admin", size=PHONE)
-    wait_for_heading(page, ask("inspect_full")["question"])
-    page.keyboard.press("f")
-    wait_for_heading(page, ask("label_hi")["question"])
+    run, page = begun_run(learner, open_page, "a run whose name is rather long for a phone", 5000.0, size=PHONE)
     query = page.locator("[data-query]").get_attribute("data-query")
-    learner.report(run, [True, False, True])
     row, chart = page.get_by_role("row").nth(1), page.get_by_role("slider").first
     for path, there in (
         ("/runs", row),

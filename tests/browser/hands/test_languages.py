@@ -6,7 +6,7 @@ from functools import cache
 import pytest
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import WEB, Open
-from tests.browser.kit import Complaints, Learner, ask, wait_for_heading
+from tests.browser.kit import Complaints, Learner, ask, begun_run, wait_for_heading
 from tests.browser.test_access import violations_at_every_width
 from tests.browser.test_narrow import PHONE, too_wide
 
@@ -62,13 +62,7 @@ def test_questions_are_answered_in_german(open_page: Open, learner: Learner) -> 
 
 
 def test_runs_are_german_with_german_numbers_and_dates(open_page: Open, learner: Learner) -> None:
-    run = learner.create_run("Labyrinth", budget=12_345.5)
-    learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
-    page = open_page(f"/work?run={run}", role="admin", locale=GERMAN)
-    wait_for_heading(page, ask("inspect_full")["question"])
-    page.keyboard.press("f")
-    wait_for_heading(page, ask("label_hi")["question"])
-    learner.report(run, [True, False, True])
+    run, page = begun_run(learner, open_page, "Labyrinth", 12_345.5, locale=GERMAN)
     page.goto(f"/runs/{run}")
     expect(page.get_by_text("von 12.345,5 Einheiten")).to_be_visible()
     chart = page.get_by_role("slider", name="Erfolg auf neuen Instanzen")
