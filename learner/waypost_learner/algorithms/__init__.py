@@ -10,10 +10,12 @@ from waypost_learner.algorithms.flat_dqn import flat_dqn
 from waypost_learner.algorithms.h_bc import h_bc
 from waypost_learner.algorithms.h_dqn import h_dqn
 from waypost_learner.algorithms.hg_dagger import hg_dagger
+from waypost_learner.algorithms.hg_dagger_by_place import hg_dagger_by_place
 from waypost_learner.algorithms.hg_dagger_q import hg_dagger_q
 from waypost_learner.algorithms.hg_stagger import hg_stagger
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.naive_h_dagger import naive_h_dagger
+from waypost_learner.algorithms.plain_dagger import plain_dagger
 from waypost_learner.algorithms.queries import Query
 from waypost_learner.policies.labels import Labels
 from waypost_learner.policies.levels import HIERARCHY, Levels
@@ -50,10 +52,12 @@ _FLAT = Levels(flat=True)
 ALGORITHMS = {
     "h-bc": Algorithm(h_bc),
     "hg-dagger": Algorithm(hg_dagger, warm_start=h_bc, monitored=True),
+    "hg-dagger-by-place": Algorithm(hg_dagger_by_place, warm_start=h_bc, monitored=True),
     "hg-stagger": Algorithm(hg_stagger, warm_start=h_bc, monitored=True),
     "naive-h-dagger": Algorithm(naive_h_dagger, warm_start=h_bc),
     "flat-bc": Algorithm(flat_bc, levels=_FLAT),
     "flat-dagger": Algorithm(flat_dagger, warm_start=flat_bc, levels=_FLAT, monitored=True),
+    "plain-dagger": Algorithm(plain_dagger, warm_start=flat_bc, levels=_FLAT),
     "hg-dagger-q": Algorithm(hg_dagger_q, warm_start=h_bc, levels=Levels(q_lo=True), monitored=True),
     "h-dqn": Algorithm(h_dqn, levels=Levels(q_hi=True, q_lo=True)),
     "flat-dqn": Algorithm(flat_dqn, levels=Levels(flat=True, q_lo=True)),

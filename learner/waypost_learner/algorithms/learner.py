@@ -182,6 +182,16 @@ class Learner:
         """Return the position of a random segment of sigma, a rollout from s. All segments are equally likely."""
         return int(np.random.default_rng([self.seed, streams.SEGMENT, s.draw]).integers(len(sigma)))
 
+    def first_visits(self, sigma: Trajectory) -> Sequence[int]:
+        """Return the positions of the segments that began in a place where no earlier segment of sigma began.
+
+        In a domain that declares no places, these are all segments.
+        """
+        first: dict[Hashable, int] = {}
+        for h, segment in enumerate(sigma):
+            first.setdefault(self._place(segment.start.view), h)
+        return list(first.values())
+
     def _stepped(self, key: PolicyKey) -> None:
         owner = self.views[key].owner
         if owner in self.q:
@@ -198,12 +208,13 @@ class Learner:
         """
         exploring = {key: self.q[view.owner] for key, view in self.views.items() if view.owner in self.q}
         rollouts = self.preset.rollouts
+        h_hi = rollouts.h_hi_tests if stream == streams.TEST and rollouts.h_hi_tests else rollouts.h_hi
         h_lo = rollouts.h_lo_hybrid if self.levels.q_lo and rollouts.h_lo_hybrid else rollouts.h_lo
         rng = np.random.default_rng([self.seed, stream, number])
         behavior = Behavior(
             rollouts.choosing,
             rng,
-            rollouts.h_hi or self.domain.horizons.hi,
+            h_hi or self.domain.horizons.hi,
             h_lo or self.domain.horizons.lo,
             {key: q.epsilon if stream == streams.TRAIN else 0.0 for key, q in exploring.items()},
             self.levels.q_lo,

@@ -35,6 +35,7 @@ class DqnSpec:
     batch: int = 64  # transitions
     update_every: int = 4  # steps under this Q-function
     discount: float = 0.9  # gamma
+    discount_per: Literal["step", "choice"] = "step"  # what a meta-controller discounts (`Returns`)
     ahead: int = 1  # steps whose rewards are summed up before the value of the state after them (n-step returns)
     terminal: Literal["subgoal", "episode"] = "subgoal"  # whose end is terminal in a subgoal's experience (`Returns`)
     target_every: int = 100  # updates
@@ -57,7 +58,7 @@ class DqnSpec:
     @property
     def returns(self) -> Returns:
         """How rewards are summed up."""
-        return Returns(self.discount, self.ahead, self.terminal)
+        return Returns(self.discount, self.ahead, self.terminal, self.discount_per)
 
 
 class QFunction:

@@ -19,7 +19,7 @@ class Transition:
     choice: int
     reward: float  # the sum over its steps, discounted to the first step
     next_state: int
-    steps: int  # the number of steps from s to s~; 0 if s~ is terminal
+    steps: int  # by how many the value of s~ is discounted: those from s to s~; 0 if s~ is terminal
 
 
 @dataclass(frozen=True)
@@ -59,12 +59,14 @@ class Returns:
     # Whose end is terminal in a subgoal's experience. With "episode", as in the authors' code for Montezuma's Revenge,
     # a reached subgoal is rewarded but goes on in the state after it, and one that runs out of time has not failed.
     terminal: Literal["subgoal", "episode"] = "subgoal"
+    # What a meta-controller discounts: each step, or each choice of a subgoal, as Kulkarni et al. (2016) do.
+    per: Literal["step", "choice"] = "step"
 
 
 def experience_of(key: PolicyKey, trajectory: Trajectory, pseudo: PseudoReward, returns: Returns) -> Experience:
     """Return what a Q-function learns from a trajectory: of one segment, unless it is a meta-controller's."""
     if key.level == "hi":
-        return of_subgoals(trajectory, returns.discount)
+        return of_subgoals(trajectory, returns)
     (segment,) = trajectory
     return of_subgoal(segment, pseudo, returns) if key.level == "lo" else of_actions(segment, returns)
 
@@ -84,15 +86,17 @@ def of_actions(segment: Segment, returns: Returns) -> Experience:
     return _experience(segment, segment.rewards, segment.final, returns)
 
 
-def of_subgoals(sigma: Trajectory, discount: float) -> Experience:
+def of_subgoals(sigma: Trajectory, returns: Returns) -> Experience:
     """Return the transitions (s_h, g_h, R_h, s_{h+1}) of sigma, for a meta-controller's Q (Kulkarni et al. 2016)."""
+    per_step = returns.per == "step"
+    within = returns.discount if per_step else 1.0  # the discount between the steps of one choice
     transitions = tuple(
         Transition(
             h,
             segment.subgoal,
-            sum(discount**step * reward for step, reward in enumerate(segment.rewards)),
+            sum(within**step * reward for step, reward in enumerate(segment.rewards)),
             h + 1,
-            0 if segment.final else len(segment.actions),
+            0 if segment.final else len(segment.actions) if per_step else 1,
         )
         for h, segment in enumerate(sigma)
         if segment.subgoal is not None

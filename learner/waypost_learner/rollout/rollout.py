@@ -53,6 +53,7 @@ class RolloutSpec:
 
     choosing: SelectionSpec
     h_hi: int | None = None  # the most subgoals in an episode; the domain's horizon if None
+    h_hi_tests: int | None = None  # instead of h_hi in test episodes; h_hi if None
     h_lo: int | None = None  # the most actions in a segment; the domain's horizon if None
     h_lo_hybrid: int | None = None  # instead of h_lo if a Q-function chooses the actions; h_lo if None
     repeat_penalty: float = 0.0  # subtracted from a subgoal's logit for each earlier choice of it in the same place

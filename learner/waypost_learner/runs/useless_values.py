@@ -17,6 +17,7 @@ _SWITCHES = frozenset(
         "crop",
         "from_passed",
         "h_hi",
+        "h_hi_tests",
         "h_lo",
         "h_lo_hybrid",
         "planning",
@@ -59,6 +60,7 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
         ),
         "warm_start_hybrid": (algorithm.interactive and levels.q_lo, f"{name} has no warm start, or takes warm_start"),
         "h_hi": (not levels.flat, f"{name} has no subgoals"),
+        "h_hi_tests": (not levels.flat, f"{name} has no subgoals"),
         "h_lo": (
             not levels.flat and not (levels.q_lo and preset.rollouts.h_lo_hybrid),
             f"{name} has no subgoals, or takes h_lo_hybrid",
@@ -96,6 +98,7 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
             levels.q_lo and not levels.flat and isinstance(domain, Placed),
             f"{name} has no Q-function of a subgoal, or the domain {domain.name!r} declares no places",
         ),
+        "dqn.discount_per": (levels.q_hi, f"{name} has no Q-function of a meta-controller"),
         "dqn.pseudo": (levels.q_lo and not levels.flat, f"{name} has no Q-function of a subgoal"),
         "symmetries": (
             bool(symmetries_of(domain)) and (levels.imitating or preset.use.tied),

@@ -18,9 +18,11 @@ from waypost_learner.algorithms.flat_dqn import flat_dqn
 from waypost_learner.algorithms.h_bc import h_bc
 from waypost_learner.algorithms.h_dqn import h_dqn
 from waypost_learner.algorithms.hg_dagger import hg_dagger
+from waypost_learner.algorithms.hg_dagger_by_place import hg_dagger_by_place
 from waypost_learner.algorithms.hg_dagger_q import hg_dagger_q
 from waypost_learner.algorithms.hg_stagger import hg_stagger
 from waypost_learner.algorithms.naive_h_dagger import naive_h_dagger
+from waypost_learner.algorithms.plain_dagger import plain_dagger
 from waypost_learner.algorithms.queries import (
     HierDemo,
     InspectFull,
@@ -54,6 +56,10 @@ class ScriptedLearner:
     def draw_one(self, s: Start, sigma: Trajectory) -> int:
         assert (s, sigma) == (S, self.sigma)
         return self.drawn
+
+    def first_visits(self, sigma: Trajectory) -> list[int]:
+        assert sigma == self.sigma
+        return [h for h in range(len(sigma)) if h != self.drawn]
 
 
 class Expert:
@@ -209,6 +215,36 @@ def test_stagger_learns_nothing_of_an_episode_that_passed() -> None:
     assert expert.asked == [InspectFull(sigma)]
 
 
+def test_by_place_the_authors_hg_dagger_labels_first_visits_and_goes_on_after_what_is_wrong() -> None:
+    sigma = tuple(segment(subgoal, n_actions=2) for subgoal in (0, 1, 2, 3, 4))
+    learner: Any = ScriptedLearner(sigma, drawn=3)  # the fourth segment begins where another one began
+    expert = Expert(sigma, False, good_subgoals=[0, 3, 2, 3, 4], lo_passes=[False, True, True, False, False])
+    labels = carried_out(hg_dagger_by_place(S, learner), expert)
+    before = [sigma[:h] for h in range(5)]
+    assert (
+        expert.asked
+        == [
+            InspectFull(sigma),
+            LabelHi(sigma[0:1], before[0]),
+            InspectLo(sigma[0], before[0]),
+            LabelLo(sigma[0], before[0]),
+            LabelHi(sigma[1:2], before[1]),  # another subgoal would have been right
+            LabelHi(sigma[2:3], before[2]),
+            InspectLo(sigma[2], before[2]),
+            LabelHi(sigma[4:5], before[4]),
+            InspectLo(sigma[4], before[4]),
+            LabelLo(sigma[4], before[4]),
+        ]
+    )
+    assert [row.choice for row in rows_of(labels)[META]] == [0, 3, 2, 4]
+    assert rows_of(labels).keys() == {META, pi(0), pi(4)}
+    assert rows_of(labels, from_passed=True).keys() == {META, pi(0), pi(2), pi(4)}
+
+    passed = Expert(sigma, True, [], [])
+    assert rows_of(carried_out(hg_dagger_by_place(S, learner), passed)) == {}
+    assert passed.asked == [InspectFull(sigma)]
+
+
 choices = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4), st.booleans()), min_size=1, max_size=8)
 
 
@@ -274,6 +310,14 @@ def test_flat_dagger_inspects_and_labels_the_whole_trajectory_only_after_a_fail(
     assert expert.asked == [InspectFull(tau)] if passes else [InspectFull(tau), LabelFull(tau)]
     assert [row.choice for row in rows_of(labels).get(FLAT, [])] == ([] if passes else [1, 1, 1])
     assert [row.choice for row in rows_of(labels, from_passed=True)[FLAT]] == ([0, 0, 0] if passes else [1, 1, 1])
+
+
+def test_plain_dagger_labels_every_rollout_and_inspects_nothing() -> None:
+    tau = flat_trajectory()
+    expert = Expert(tau, True, [], [])
+    labels = carried_out(plain_dagger(S, ScriptedLearner(tau)), expert)  # type: ignore[arg-type]
+    assert expert.asked == [LabelFull(tau)]
+    assert [row.choice for row in rows_of(labels)[FLAT]] == [1, 1, 1]
 
 
 @examples

@@ -13,7 +13,7 @@ from tests.learner.kit import TINY, TINY_LEAN, drawn_mazes, examples, segment
 
 from waypost.trajectory import Segment, State, Trajectory, n_steps
 from waypost_learner.algorithms.learner import Learner
-from waypost_learner.domains.corridor import CorridorDomain
+from waypost_learner.domains.corridor import Corridor, CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.views import LO_VIEW
 from waypost_learner.domains.montezuma.domain import MontezumaDomain
@@ -26,7 +26,7 @@ from waypost_learner.policies.networks import ConvNet, DenseNet, PlanningNet
 from waypost_learner.presets import find_preset
 from waypost_learner.rollout.policy_keys import META, pi
 from waypost_learner.rollout.rollout import run
-from waypost_learner.rollout.streams import TEST
+from waypost_learner.rollout.streams import TEST, TRAIN
 from waypost_learner.runs.missing_parts import missing_parts
 
 maze = MazeDomain()
@@ -210,6 +210,29 @@ class PlacedCorridor(CorridorDomain):
 
     def place(self, state: Any) -> int:
         return int(state)
+
+
+def placed(*cells: int) -> Trajectory:
+    """Segments that began in these cells."""
+    return tuple(replace(segment(0), states=(State(np.zeros(2), cell), State(np.ones(2), cell + 1))) for cell in cells)
+
+
+def test_a_place_is_visited_first_by_one_segment_and_without_places_every_segment_is_a_first_visit() -> None:
+    sigma = placed(3, 1, 3, 2, 1)
+    assert list(Learner(PlacedCorridor(), TINY, seed=0, threads=1).first_visits(sigma)) == [0, 1, 3]
+    assert list(Learner(CorridorDomain(), TINY, seed=0, threads=1).first_visits(sigma)) == [0, 1, 2, 3, 4]
+
+
+def test_tests_can_take_more_subgoals_than_training() -> None:
+    def longest(**values: int) -> tuple[int, int]:
+        learner = Learner(CorridorDomain(), TINY.with_values(h_lo=1, **values), seed=0, threads=1)
+        far = Corridor(11, 0)
+        rollouts = [learner.rollout(learner.make_simulator(), far, stream, 0) for stream in (TRAIN, TEST)]
+        trained, tested = (len(run(one, learner.policies)) for one in rollouts)
+        return trained, tested
+
+    assert longest(h_hi=2) == (2, 2)
+    assert longest(h_hi=2, h_hi_tests=4) == (2, 4)
 
 
 def exploring(domain: Any) -> Learner:

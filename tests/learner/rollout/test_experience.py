@@ -71,7 +71,7 @@ def test_n_step_returns_sum_up_the_next_rewards_and_continue_in_the_state_after_
 def test_a_subgoal_is_one_transition_of_the_meta_controller_discounted_by_its_steps() -> None:
     first = replace(segment(1, n_actions=3), rewards=(0.0, 0.0, 1.0))
     last = replace(segment(4, n_actions=2), rewards=(0.0, -1.0), final=True)
-    experience = of_subgoals((first, last), discount=0.9)
+    experience = of_subgoals((first, last), ONE)
     one, other = experience.transitions
     assert (one.choice, one.steps, other.choice, other.steps) == (1, 3, 4, 0)
     assert math.isclose(one.reward, 0.81)
@@ -79,3 +79,10 @@ def test_a_subgoal_is_one_transition_of_the_meta_controller_discounted_by_its_st
     starts = [first.start, last.start, last.states[-1]]
     assert all(a is b.observation for a, b in zip(experience.observations, starts, strict=True))
     assert [(t.state, t.next_state) for t in experience.transitions] == [(0, 1), (1, 2)]
+
+
+def test_per_choice_the_meta_controller_discounts_each_subgoal_once_however_long_it_takes() -> None:
+    first = replace(segment(1, n_actions=3), rewards=(0.0, 0.0, 1.0))
+    last = replace(segment(4, n_actions=2), rewards=(0.5, -1.0), final=True)
+    one, other = of_subgoals((first, last), Returns(discount=0.9, per="choice")).transitions
+    assert (one.reward, one.steps, other.reward, other.steps) == (1.0, 1, -0.5, 0)
