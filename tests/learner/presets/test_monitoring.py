@@ -57,7 +57,7 @@ def test_what_is_no_share_and_no_rate_is_refused(values: str) -> None:
     [{"algorithm": one} for one in ("h-bc", "naive-h-dagger", "flat-bc", "h-dqn")] + [{"redraw": True}],
 )
 def test_monitoring_is_refused_where_nothing_is_monitored(values: dict[str, Any]) -> None:
-    with pytest.raises(ValueError, match="only hg-dagger, hg-dagger-by-place, hg-stagger, .* are monitored, and"):
+    with pytest.raises(ValueError, match=r"only hg-dagger, hg-dagger-by-place, hg-stagger, .* are monitored, and"):
         set_up(corridor(values="monitoring.share=0.5", **values), threads=1)
 
 
