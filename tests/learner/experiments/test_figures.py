@@ -241,6 +241,16 @@ def test_a_run_that_never_got_a_reward_has_one_tick_of_it() -> None:
     assert [tick for tick in figure.axes[0].get_yticks() if low <= tick <= high] == [0]
 
 
+def test_rewards_have_a_band_of_quartiles_within_the_band_of_their_range() -> None:
+    group = plan.GROUPS["montezuma-hybrid"]
+    runs = [replace(room(seed, 0.9), reward=np.full(4, float(seed))) for seed in range(5)]
+    axes = draw.reward_by_sample(Comparison(group, {group.series[0]: runs})).axes[0]
+    heights = [
+        tuple(np.percentile(path.vertices[:, 1], [0, 100])) for one in axes.collections for path in one.get_paths()
+    ]
+    assert heights == [(0, 4), (1, 3)]
+
+
 def test_the_csv_keeps_rewards_and_attempts_beside_runs_that_have_none() -> None:
     imitating = run_of(corridor(), [True, False])
     archive.write(Path(), [imitating, room(0, 0.95)])

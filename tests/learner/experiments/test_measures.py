@@ -80,8 +80,10 @@ def test_a_band_holds_its_median_within_its_range_within_what_runs_had(
     tracks = [track(np.cumsum([x for x, _ in rows]), [y for _, y in rows], over) for rows, over in runs]  # type: ignore[arg-type]
     found = band(tracks)
     assert found is not None
-    assert (found.low <= found.median).all()
-    assert (found.median <= found.high).all()
+    assert (found.low <= found.lower_quartile).all()
+    assert (found.lower_quartile <= found.median).all()
+    assert (found.median <= found.upper_quartile).all()
+    assert (found.upper_quartile <= found.high).all()
     assert found.low.min() >= min(t.y.min() for t in tracks)
     assert found.high.max() <= max(t.y.max() for t in tracks)
     assert (np.diff(found.x) > 0).all()

@@ -138,12 +138,14 @@ def reward_by_sample(comparison: Comparison) -> Figure:
     """Draw the mean reward of training rollouts against LO samples."""
     figure, (axes,) = frame(comparison, "Reward against LO samples")
     for series, runs in comparison.runs.items():
-        curve(axes, [Track(run.lo_samples, run.reward, run.complete) for run in runs], look.style_of(series))
+        tracks = [Track(run.lo_samples, run.reward, run.complete) for run in runs]
+        curve(axes, tracks, look.style_of(series), quartiles=True)
     count_axis(axes.yaxis, "Mean reward (trailing 100 rollouts)")
     # Otherwise a reward that is always 0 has several ticks that say 0.
     axes.yaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     count_axis(axes.xaxis, "LO samples")
-    _close(figure, comparison, _LINES)
+    several = any(len(runs) > 1 for runs in comparison.runs.values())
+    _close(figure, comparison, f"{_LINES} Darker bands: quartiles." if several else _LINES)
     return figure
 
 

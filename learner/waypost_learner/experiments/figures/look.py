@@ -107,13 +107,16 @@ def _runs(comparison: Comparison) -> str:
     return f"{text}{', some unfinished' if unfinished else ''}."
 
 
-def curve(axes: Axes, tracks: Sequence[Track], style: Style) -> None:
-    """Draw the median of the runs as a line, and their range as a band."""
+def curve(axes: Axes, tracks: Sequence[Track], style: Style, quartiles: bool = False) -> None:
+    """Draw the median of the runs as a line, and their range as a band; with `quartiles`, a darker band within it."""
     found = band(tracks)
     if found is None:
         return
     if len(tracks) > 1:
         axes.fill_between(found.x, found.low, found.high, color=style.color, alpha=0.15, linewidth=0)
+        if quartiles:
+            within = found.lower_quartile, found.upper_quartile
+            axes.fill_between(found.x, *within, color=style.color, alpha=0.25, linewidth=0)
     axes.plot(found.x, found.median, color=style.color, linestyle=style.line, linewidth=1.8)
 
 

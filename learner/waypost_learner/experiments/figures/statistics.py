@@ -42,11 +42,13 @@ class Track:
 
 @dataclass(frozen=True, eq=False)
 class Band:
-    """The median and range over runs at grid points; every array is float64[points]."""
+    """The median, quartiles and range over runs at grid points; every array is float64[points]."""
 
     x: Column
-    median: Column
     low: Column
+    lower_quartile: Column
+    median: Column
+    upper_quartile: Column
     high: Column
 
 
@@ -59,7 +61,7 @@ def spread(values: Sequence[float]) -> Spread | None:
 
 
 def band(tracks: Sequence[Track], points: int = POINTS) -> Band | None:
-    """Return the median and range of runs as functions of x, or None if no run has values.
+    """Return the median, quartiles and range of runs as functions of x, or None if no run has values.
 
     Runs have different values of x, so each run is evaluated as a step function on a common grid. The grid starts where
     all runs have values, and ends at the median of the runs' last x. It has more points where the runs have more rows,
@@ -74,7 +76,7 @@ def band(tracks: Sequence[Track], points: int = POINTS) -> Band | None:
     grid = np.unique([start, *np.quantile(rows, np.linspace(0, 1, points), method="nearest"), end])
     values = np.array([track.at(grid) for track in begun])  # [runs, points]
     grid, values = grid[known := ~np.isnan(values).all(axis=0)], values[:, known]
-    return Band(grid, np.nanmedian(values, axis=0), np.nanmin(values, axis=0), np.nanmax(values, axis=0))
+    return Band(grid, *np.nanquantile(values, (0, 0.25, 0.5, 0.75, 1), axis=0))
 
 
 def first_at(level: float, test_success: Column, success_rate: Column) -> int | None:
