@@ -34,6 +34,7 @@ class Algorithm:
     warm_start: Episode | None = None  # replaces `episode` in the first episodes; no warm start if None
     levels: Levels = HIERARCHY
     monitored: bool = False  # whether episodes begin with Inspect_FULL, so that monitoring may skip them
+    by_place: bool = False  # whether what is asked depends on the places that the domain declares
 
     @property
     def interactive(self) -> bool:
@@ -52,7 +53,7 @@ _FLAT = Levels(flat=True)
 ALGORITHMS = {
     "h-bc": Algorithm(h_bc),
     "hg-dagger": Algorithm(hg_dagger, warm_start=h_bc, monitored=True),
-    "hg-dagger-by-place": Algorithm(hg_dagger_by_place, warm_start=h_bc, monitored=True),
+    "hg-dagger-by-place": Algorithm(hg_dagger_by_place, warm_start=h_bc, monitored=True, by_place=True),
     "hg-stagger": Algorithm(hg_stagger, warm_start=h_bc, monitored=True),
     "naive-h-dagger": Algorithm(naive_h_dagger, warm_start=h_bc),
     "flat-bc": Algorithm(flat_bc, levels=_FLAT),

@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass
 
-from waypost.domains import InstanceSets, find_domain
+from waypost.domains import InstanceSets, Placed, find_domain
 from waypost_learner.algorithms import Algorithm, find_algorithm
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.experts.head_start import head_start
 from waypost_learner.presets import find_preset
+from waypost_learner.presets.told import STRUCTURE, level_of
 from waypost_learner.runs.config import TrainConfig
 from waypost_learner.runs.missing_parts import missing_parts
 from waypost_learner.runs.useless_values import refuse_useless_values
@@ -21,6 +22,13 @@ class Setup:
     learner: Learner
     instances: InstanceSets
     missing: dict[str, str]  # what is used instead of each part that the domain does not provide
+
+    @property
+    def told(self) -> str:
+        """The lowest level of what a learner is told that allows what the run uses of the domain's declarations."""
+        if self.algorithm.by_place:
+            return STRUCTURE
+        return level_of(self.learner.preset, self.learner.levels.reinforced)
 
 
 def set_up(config: TrainConfig, threads: int | None) -> Setup:
@@ -41,12 +49,18 @@ def set_up(config: TrainConfig, threads: int | None) -> Setup:
         raise ValueError(f"{config.algorithm} has no warm start: leave out --warm-start")
     if config.head_start is not None and not algorithm.levels.reinforced:
         raise ValueError(f"{config.algorithm} learns only from an expert: leave out --head-start")
+    if algorithm.by_place and config.told not in (None, STRUCTURE):
+        raise ValueError(
+            f"{config.algorithm} asks once per place, and --told {config.told} tells no places: leave out --told"
+        )
     learner = build_learner(config, threads)
     strangers = learner.preset.training.dqn_of.keys() - set(learner.domain.subgoals)
     if strangers:
         raise ValueError(f"dqn_of names {min(strangers)!r}, but the subgoals are: {', '.join(learner.domain.subgoals)}")
     refuse_useless_values(config, algorithm, learner)
     missing = missing_parts(learner)
+    if algorithm.by_place and not isinstance(learner.domain, Placed):
+        missing["places to label once"] = "Each segment is labeled."
     return Setup(config, algorithm, learner, learner.domain.instances(config.instances), missing)
 
 

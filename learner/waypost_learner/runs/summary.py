@@ -4,7 +4,6 @@ from typing import Any
 
 from waypost import wire
 from waypost.client import Client
-from waypost_learner.presets.told import level_of
 from waypost_learner.runs.checkpoints import weights_hash
 from waypost_learner.runs.setup import Setup
 
@@ -25,7 +24,7 @@ def finish(setup: Setup, client: Client, run: str, ended: str, seconds: float) -
         "algorithm": config.algorithm,
         "domain": config.domain,
         "seed": config.seed,
-        "told": level_of(setup.learner.preset, setup.learner.levels.reinforced),
+        "told": setup.told,
         "episodes": state.episodes_done,
         "success_rate": state.success_rate,
         "cost": {"total": costs.total, "by_kind": {kind: cost.units for kind, cost in costs.by_kind.items()}},

@@ -1,9 +1,12 @@
 """What a learner is told of its domain is limited by the level of the run, and nothing beyond the level is used."""
 
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from tests.learner.kit import store
 
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.maze.domain import MazeDomain
@@ -16,6 +19,7 @@ from waypost_learner.presets.told import LEVELS, STRUCTURE, level_of
 from waypost_learner.rollout.policy_keys import FLAT, META, pi
 from waypost_learner.runs.config import TrainConfig
 from waypost_learner.runs.setup import set_up
+from waypost_learner.runs.training import train
 
 HIERARCHIES = [
     Levels(),
@@ -93,3 +97,44 @@ def test_a_run_that_is_told_nothing_learns_each_label_once_as_it_was_given(algor
     assert all(view.symmetry is None and view.owner == key for key, view in learner.views.items())
     observation = np.random.default_rng(0).random(maze.observation_shape, np.float32)
     assert all(view.view.observe(observation) is observation for view in learner.views.values())
+
+
+class Secret:
+    """A part of a domain that may be found, but not used."""
+
+    def _refuse(self, *_: Any) -> Any:
+        raise AssertionError("the learner was told nothing, and used a part of the domain")
+
+    __call__ = __iter__ = __len__ = __getitem__ = __getattr__ = _refuse
+
+    def __bool__(self) -> bool:
+        return True
+
+
+class Reticent(MazeDomain):
+    """A maze that tells nothing that a learner at `--told nothing` must not use."""
+
+    place = relabeled = relabeled_actions = retraced = Secret()  # type: ignore[assignment]
+    symmetries = hi_view = lo_view = flat_view = centered_view = crop_view = Secret()  # type: ignore[assignment]
+
+
+@pytest.mark.parametrize(
+    ("preset", "algorithm", "networks"),
+    [
+        ("general", "hg-dagger", ["train_shared"]),
+        ("general", "flat-dagger", ["train_shared"]),
+        ("lean", "hg-stagger", ["train_hi", "train_lo"]),
+    ],
+)
+def test_a_whole_run_that_is_told_nothing_uses_nothing_more_of_the_domain(
+    tmp_path: Path, preset: str, algorithm: str, networks: list[str]
+) -> None:
+    fast = " ".join(f"{one}.least=64 {one}.most=64 {one}.idle=0" for one in networks)
+    fast += " fields.far=8" if preset == "general" else ""
+    domain = f"{__name__}:Reticent"
+    config = TrainConfig(
+        algorithm, domain, preset=preset, episodes=3, warm_start=1, told="nothing", test_every=3, values=fast
+    )
+    with store(tmp_path) as (connection, options):
+        summary = train(config, connection, options)
+    assert (summary["told"], summary["episodes"]) == ("nothing", 3)

@@ -69,3 +69,13 @@ def test_values_with_an_effect_and_switched_off_ones_are_accepted(algorithm: str
 
 def test_a_learner_of_an_older_run_is_built_though_some_values_had_no_effect() -> None:
     assert build_learner(TrainConfig("h-bc", domain="corridor", warm_start=2), threads=1).preset.warm_start == 2
+
+
+def test_an_algorithm_that_asks_once_per_place_is_told_places() -> None:
+    by_place = TrainConfig("hg-dagger-by-place", preset="paper")
+    assert set_up(by_place, threads=1).told == "structure"
+    assert set_up(replace(by_place, algorithm="hg-dagger"), threads=1).told == "nothing"
+    with pytest.raises(ValueError, match="asks once per place, and --told crop tells no places: leave out --told"):
+        set_up(replace(by_place, told="crop"), threads=1)
+    missing = set_up(replace(by_place, domain="corridor"), threads=1).missing
+    assert missing["places to label once"] == "Each segment is labeled."
