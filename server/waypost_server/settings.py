@@ -2,7 +2,7 @@
 
 from ipaddress import IPv4Network, IPv6Network
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
@@ -68,6 +68,10 @@ class Settings(BaseSettings):
         default=(),
         description="Addresses of proxies whose X-Forwarded-For and X-Forwarded-Proto are believed, comma-separated.",
     )
+    log_format: Literal["text", "json"] = Field(
+        default="text", description="The format of the log: lines of text, or one JSON object per line."
+    )
+    log_requests: bool = Field(default=False, description="Whether each request has a line in the log.")
     webhook_hosts: Annotated[tuple[str, ...], NoDecode] = Field(
         default=(), description="Hosts that webhooks may call: NAME[:PORT], comma-separated; *.NAME for subdomains."
     )
