@@ -7,6 +7,7 @@ from contextlib import asynccontextmanager
 
 from fastapi import FastAPI
 from starlette.middleware.gzip import GZipMiddleware
+from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 
 from waypost_server.answers import routes as answers
 from waypost_server.answers.review import routes as review
@@ -83,6 +84,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         body_seconds=chosen.body_seconds,
         traffic=traffic,
     )
+    if chosen.trusted_proxies:
+        app.add_middleware(ProxyHeadersMiddleware, trusted_hosts=[str(one) for one in chosen.trusted_proxies])
     return app
 
 

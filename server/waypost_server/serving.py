@@ -37,6 +37,7 @@ class Server(uvicorn.Server):
         config = uvicorn.Config(
             app,
             lifespan="on",
+            log_config=None,
             log_level=log_level,
             access_log=False,
             server_header=False,

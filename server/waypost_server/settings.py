@@ -2,7 +2,7 @@
 
 from ipaddress import IPv4Network, IPv6Network
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
@@ -64,6 +64,14 @@ class Settings(BaseSettings):
     secure_cookies: bool = Field(
         default=False, description="True behind an https proxy: browsers send the cookie over https only."
     )
+    trusted_proxies: Annotated[tuple[IPv4Network | IPv6Network, ...], NoDecode] = Field(
+        default=(),
+        description="Addresses of proxies whose X-Forwarded-For and X-Forwarded-Proto are believed, comma-separated.",
+    )
+    log_format: Literal["text", "json"] = Field(
+        default="text", description="The format of the log: lines of text, or one JSON object per line."
+    )
+    log_requests: bool = Field(default=False, description="Whether each request has a line in the log.")
     webhook_hosts: Annotated[tuple[str, ...], NoDecode] = Field(
         default=(), description="Hosts that webhooks may call: NAME[:PORT], comma-separated; *.NAME for subdomains."
     )
@@ -87,7 +95,7 @@ class Settings(BaseSettings):
         default=None, description="The folder of the built web app; the default is found automatically."
     )
 
-    @field_validator("hosts", "webhook_hosts", "webhook_networks", mode="before")
+    @field_validator("hosts", "trusted_proxies", "webhook_hosts", "webhook_networks", mode="before")
     @classmethod
     def _split(cls, value: object) -> object:
         return tuple(name.strip() for name in value.split(",") if name.strip()) if isinstance(value, str) else value

@@ -28,3 +28,6 @@ class Problem(BaseModel):
     detail: str = Field(description="What was wrong with this request, and what to do.")
     instance: str | None = Field(default=None, description="The path of the request.")
     errors: list[dict[str, JsonValue]] | None = Field(default=None, description="For status 422: each invalid field.")
+    request_id: str | None = Field(
+        default=None, description="For status 5xx: the id of the request in the server's log."
+    )

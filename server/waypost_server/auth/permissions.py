@@ -40,7 +40,7 @@ class Caller:
 
 
 def address_of(connection: HTTPConnection) -> str | None:
-    """Return the address that a request came from; behind a proxy, that is the proxy's: its headers can be forged."""
+    """Return the address that a request came from: the proxy's, unless the settings trust the proxy's headers."""
     return connection.client.host if connection.client else None
 
 

@@ -16,7 +16,7 @@ from waypost_server.db import backup, migration
 from waypost_server.db.engine import BadDatabase, Database
 from waypost_server.db.schema import NewerStore
 from waypost_server.gold.practice import BadPractice
-from waypost_server.http import spa
+from waypost_server.http import logs, spa
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
@@ -61,6 +61,7 @@ def _serve(settings: Settings, host: str, bound: socket.socket, login_link: bool
         typer.echo(f"The store was of an earlier version: it was backed up to {done.backup}, and migrated.")
     if chosen.page is None and spa.find() is None:
         typer.echo("The web app is not built; `make web` builds it.")
+    logs.install(chosen.log_format, with_requests=chosen.log_requests)
     serving.foreground(app, bound, chosen.drain_seconds)
 
 

@@ -196,6 +196,7 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
     engine = create_engine(
         url,
         pool_size=1 if writes else READERS,
+        hide_parameters=True,  # errors are logged, and parameters are answers and hashes of secrets
         max_overflow=0,
         connect_args={"check_same_thread": False, "timeout": BUSY_SECONDS},
     )
@@ -253,5 +254,10 @@ def _snapshots(engine: Engine) -> Engine:
 def _postgresql(url: URL) -> Engine:
     options = "-c synchronous_commit=on -c statement_timeout=30000 -c idle_in_transaction_session_timeout=30000"
     return create_engine(
-        url, pool_size=WRITERS + READERS, max_overflow=0, pool_pre_ping=True, connect_args={"options": options}
+        url,
+        pool_size=WRITERS + READERS,
+        hide_parameters=True,
+        max_overflow=0,
+        pool_pre_ping=True,
+        connect_args={"options": options},
     )

@@ -1,4 +1,4 @@
-"""The outermost middleware: accepted host names, limits on request bodies, security headers, failures, and metrics.
+"""The outermost middleware: ids of requests, host names, limits on bodies, security headers, failures, metrics.
 
 Starlette's own handler of failures runs outside of all middleware, where the security headers would be missing.
 """
@@ -12,7 +12,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from waypost_server import errors
-from waypost_server.http import problems
+from waypost_server.http import logs, problems
 from waypost_server.http.traffic import Traffic
 
 LOOPBACK = ("localhost", "127.0.0.1", "::1")
@@ -37,8 +37,9 @@ def host_name(header: str) -> str:
     return (name if header.startswith("[") and closed else header.partition(":")[0]).lower()
 
 
-def _add_headers(message: Message, path: str) -> None:
+def _add_headers(message: Message, path: str, request: str) -> None:
     headers = MutableHeaders(scope=message)
+    headers[logs.HEADER] = request
     for name, value in HEADERS.items():
         headers.setdefault(name, value)
     if path.startswith("/api/"):
@@ -59,11 +60,12 @@ class Guard:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Refuse the request, or read its body and pass it on; add headers to the response, also if the app fails."""
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+            return
+        request = logs.begin(scope)
         if scope["type"] == "websocket":
             await self._socket(scope, receive, send)
-            return
-        if scope["type"] != "http":
-            await self._app(scope, receive, send)
             return
 
         started, began = False, time.perf_counter()
@@ -72,9 +74,10 @@ class Guard:
             nonlocal started
             if message["type"] == "http.response.start":
                 started = True
-                _add_headers(message, scope["path"])
-                operation = getattr(scope.get("route"), "operation_id", None)
-                self._traffic.count(operation, message["status"], time.perf_counter() - began)
+                _add_headers(message, scope["path"], request)
+                operation, seconds = getattr(scope.get("route"), "operation_id", None), time.perf_counter() - began
+                self._traffic.count(operation, message["status"], seconds)
+                logs.answered(scope, message["status"], seconds)
             await send(message)
 
         try:

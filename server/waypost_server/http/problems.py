@@ -1,6 +1,7 @@
 """Errors over HTTP: RFC 9457 problem documents, and their description for OpenAPI."""
 
 import http
+import json
 import logging
 import math
 from collections.abc import Mapping
@@ -14,6 +15,7 @@ from starlette.exceptions import HTTPException
 from waypost import wire
 from waypost_server import errors
 from waypost_server.errors import Refusal
+from waypost_server.http import logs
 
 log = logging.getLogger("waypost")
 
@@ -23,7 +25,9 @@ INTERNAL = (500, "internal-error", "Internal error")
 
 
 def document(status: int, name: str, title: str, detail: str, **more: Any) -> dict[str, Any]:
-    """Return the body of a problem document."""
+    """Return the body of a problem document. A failure of the server has the id of its request, for the log."""
+    if status >= 500 and (request := logs.request_id()) is not None:
+        more["request_id"] = request
     return {"type": f"/problems/{name}", "title": title, "status": status, "detail": detail, **more}
 
 
@@ -49,8 +53,8 @@ def problem(refusal: Refusal) -> wire.Problem:
 
 def failed(method: str, path: str, error: Exception) -> JSONResponse:
     """Log a failure of the server, and return the response, which says nothing about its cause."""
-    log.error("%s %s failed", method, path, exc_info=error)
-    body = document(*INTERNAL, "The server failed; its log says why.", instance=path)
+    log.error("%s %s failed", method, json.dumps(path), exc_info=error)
+    body = document(*INTERNAL, "The server failed; its log says why, under the id of the request.", instance=path)
     return JSONResponse(body, 500, media_type=MEDIA_TYPE)
 
 
@@ -75,6 +79,8 @@ def install(app: FastAPI) -> None:
 
     @app.exception_handler(Refusal)
     async def refused(request: Request, error: Refusal) -> JSONResponse:
+        if isinstance(error, errors.StorageFailed) and not isinstance(error, errors.StoreBusy):
+            log.warning("%s %s failed: %s", request.method, json.dumps(request.url.path), error.detail)
         return render(error, request.url.path)
 
     @app.exception_handler(RequestValidationError)

@@ -49,14 +49,13 @@ async def login(body: wire.Login, request: Request, response: Response, context:
     """Exchange the one-time code of a login link for a session cookie."""
     if "sec-fetch-site" in request.headers or "origin" in request.headers:
         refuse_cross_site(request)
-    address = address_of(request)
-    client = address or ""
-    attempts.check(client)
-    seconds = context.settings.session_seconds
-    session = await context.db.write(lambda tx: sessions.redeem(tx, body.code, seconds, address))
+    address, code, seconds = address_of(request), credentials.hash_of(body.code), context.settings.session_seconds
+    session = None
+    if await context.db.read(lambda tx: credentials.find(tx, code, "login")):  # wrong codes cost no change of the store
+        session = await context.db.write(lambda tx: sessions.redeem(tx, body.code, seconds, address))
     if session is None:
-        attempts.failed(client)
-        request.state.rejected = ("login", credentials.hash_of(body.code))
+        attempts.failed(address)
+        request.state.rejected = ("login", code)
         raise await context.db.read(lambda tx: sessions.why_refused(tx, body.code))
     _set_cookie(context, request, response, session.secret)
     return await context.db.read(lambda tx: performance.me(tx, session.user))

@@ -4157,6 +4157,11 @@ export interface components {
             errors?: {
                 [key: string]: components["schemas"]["JsonValue"];
             }[] | null;
+            /**
+             * Request Id
+             * @description For status 5xx: the id of the request in the server's log.
+             */
+            request_id?: string | null;
         };
         /**
          * Query
