@@ -2,17 +2,25 @@
 
 import subprocess
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from itertools import count
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
-from tests.browser.kit import Complaints, Learner, chromium, log_in
+from tests.browser.kit import Complaints, Learner, chromium, log_in, maze
 
 from waypost import wire
+from waypost.client import Client
+from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.maze import Maze
+from waypost_learner.remote.stage import offer
+from waypost_learner.remote.translation import Translator
 from waypost_server import serving
+from waypost_server.auth import tokens
 from waypost_server.serving import Served
 from waypost_server.settings import Settings
+from waypost_server.users import service as users
 
 WEB = Path(__file__).resolve().parents[2] / "web"
 WIDE = {"width": 1440, "height": 900}
@@ -20,6 +28,8 @@ _numbers = count()
 expect.set_options(timeout=15_000)  # a busy machine is not a broken page
 
 Open = Callable[..., Page]
+Stage = Callable[..., Callable[[], None]]
+MAZE = Translator(MazeDomain(), Maze.from_json(maze()))
 
 
 @pytest.fixture(scope="session")
@@ -110,3 +120,20 @@ def open_page(browser: Browser, served: Served, complaints: Complaints) -> Itera
     yield open_
     for context in contexts:
         context.close()
+
+
+@pytest.fixture
+def stage() -> Iterator[Stage]:
+    """Offers the maze on the play socket of a query; what is offered is withdrawn when the test ends."""
+    with ExitStack() as stack:
+
+        def offered(served: Served, query: int, translator: Translator = MAZE) -> Callable[[], None]:
+            user = served.db.write_now(lambda tx: users.ensure_user(tx, "learner", "learner"))
+            token = served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "stage")).token
+            client = Client(served.url, token)
+            stack.callback(client.close)
+            withdraw = offer(lambda: client.play(query), translator, client.upload)
+            stack.callback(withdraw)
+            return withdraw
+
+        yield offered

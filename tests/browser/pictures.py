@@ -16,7 +16,7 @@ from pathlib import Path
 from PIL import Image
 from playwright.sync_api import Page
 from tests.browser import test_play
-from tests.browser.conftest import WEB, WIDE
+from tests.browser.conftest import MAZE, WEB, WIDE
 from tests.browser.kit import Learner, ask, chromium, log_in, wait_for_heading
 
 from waypost.client import Client
@@ -103,7 +103,7 @@ class Gallery:
         user = self.served.db.write_now(lambda tx: users.ensure_user(tx, "learner", "learner"))
         token = self.served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "stage")).token
         with closing(Client(self.served.url, token)) as client, ExitStack() as stack:
-            stack.callback(offer(lambda: client.play(query), test_play.MAZE, client.upload))
+            stack.callback(offer(lambda: client.play(query), MAZE, client.upload))
             self.page.goto(f"/work?run={run}")
             test_play.is_here(self.page)
             test_play.way(self.page, test_play.WAY[:5])

@@ -4,8 +4,8 @@ import re
 
 import pytest
 from playwright.sync_api import expect
+from tests.browser.access.axe import violations
 from tests.browser.conftest import WIDE, Open
-from tests.browser.test_access import violations
 
 PHONE = {"width": 390, "height": 844}
 

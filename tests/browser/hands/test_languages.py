@@ -5,9 +5,9 @@ from functools import cache
 
 import pytest
 from playwright.sync_api import Page, expect
+from tests.browser.access.axe import violations
 from tests.browser.conftest import WEB, Open
 from tests.browser.kit import Complaints, Learner, ask, begun_run, wait_for_heading
-from tests.browser.test_access import violations_at_every_width
 from tests.browser.test_narrow import PHONE, too_wide
 
 GERMAN = "de-DE"
@@ -36,7 +36,7 @@ def check(page: Page) -> None:
     """The page is German, accessible, and fits a phone."""
     expect(page.locator("html")).to_have_attribute("lang", "de")
     assert english(page) == set()
-    assert violations_at_every_width(page) == []
+    assert violations(page) == []
     page.set_viewport_size(PHONE)
     assert too_wide(page) == []
     page.set_viewport_size({"width": 1440, "height": 900})

@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 import pytest
 from playwright.sync_api import Page, expect
+from tests.browser.access.axe import violations
 from tests.browser.conftest import Open
 from tests.browser.hands.pointer import Finger, Mouse
 from tests.browser.kit import Json, Learner, ask, maze, wait_for_heading, way
-from tests.browser.test_access import violations
 from tests.browser.test_narrow import PHONE, too_wide
 
 OpenWith = Callable[[str], tuple[Page, Mouse]]
