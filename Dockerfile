@@ -1,4 +1,5 @@
 # Builds two images: `--target server` (the server with the web app) and `--target learner` (the same with PyTorch).
+# requirements/ has the version and the hashes of each Python package; scripts/lock writes it.
 
 FROM node:22-slim AS page
 WORKDIR /src/web
@@ -11,6 +12,8 @@ RUN npm run build
 FROM python:3.13-slim-trixie AS wheel
 WORKDIR /src
 RUN python -m venv /opt/waypost
+COPY requirements/ requirements/
+RUN pip install --no-cache-dir --no-deps --require-hashes -r requirements/build.txt
 COPY pyproject.toml README.md LICENSE ./
 COPY sdk/ sdk/
 COPY server/ server/
@@ -18,18 +21,25 @@ COPY learner/ learner/
 COPY web/hatch_build.py web/
 # The build hook uses the web app that is already built, so this stage needs no Node.
 COPY --from=page /src/web/dist/ web/dist/
-RUN pip wheel --no-cache-dir --no-deps --wheel-dir /wheels .
+RUN pip wheel --no-cache-dir --no-deps --no-build-isolation --wheel-dir /wheels .
 
 
 FROM wheel AS server-environment
-RUN /opt/waypost/bin/pip install --no-cache-dir /wheels/*.whl
+RUN /opt/waypost/bin/pip install --no-cache-dir --no-deps --require-hashes -r requirements/server.txt
+RUN /opt/waypost/bin/pip install --no-deps --no-index /wheels/*.whl && /opt/waypost/bin/pip check
 
 
 FROM wheel AS learner-environment
-# Install PyTorch first and separately, from the given index: CPU-only builds save gigabytes (docs/operator.md).
+RUN /opt/waypost/bin/pip install --no-cache-dir --no-deps --require-hashes -r requirements/learner.txt
+# CPU-only builds of PyTorch save gigabytes (docs/operator.md). Such an index has other files of the same version, whose
+# hashes are not known here.
 ARG TORCH_INDEX_URL=
-RUN /opt/waypost/bin/pip install --no-cache-dir ${TORCH_INDEX_URL:+--index-url "$TORCH_INDEX_URL"} 'torch>=2.6,<2.14'
-RUN /opt/waypost/bin/pip install --no-cache-dir "$(echo /wheels/*.whl)[learner]"
+RUN if [ -z "$TORCH_INDEX_URL" ]; \
+    then /opt/waypost/bin/pip install --no-cache-dir --no-deps --require-hashes -r requirements/torch.txt; \
+    else /opt/waypost/bin/pip install --no-cache-dir --no-deps --index-url "$TORCH_INDEX_URL" \
+           "$(sed -n 's/^\(torch==[^ ]*\).*/\1/p' requirements/torch.txt)"; \
+    fi
+RUN /opt/waypost/bin/pip install --no-deps --no-index /wheels/*.whl
 
 
 # Debian 13, because its PostgreSQL programs are as new as the database of docker-compose.yml (17).
