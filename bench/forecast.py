@@ -3,7 +3,8 @@
 Each run is cut at a share of its units, and forecast from what was known then. Runs with even seeds chose the constants
 of `server/waypost_server/runs/futures.py`; the tables are of the others, and of the even ones apart. A run is never
 among the finished runs that its own forecast uses. It writes `backtest.csv.gz`, with one row per forecast, and prints
-tables. It asserts nothing. `--score` prints only the mean score of the even seeds: lower is better.
+tables. `--report FILE` writes a document with one row per run. It asserts nothing. `--score` prints only the mean score
+of the even seeds: lower is better.
 """
 
 import argparse
@@ -232,10 +233,66 @@ def write(path: Path, found: Sequence[Case]) -> None:
             writer.writerow((int(case.run.chose), *settings, *about, int(case.span is None), *map(cell, amounts)))
 
 
+REPORT = """# Forecasts of each run
+
+`python bench/forecast.py --to docs/results/forecast --report docs/forecast-results.md` writes this document; do not
+edit it. Each committed run was cut at a quarter of its units. From what was known then, and from all other runs, it was
+forecast after how many units 90 % of the last 100 tests would succeed ([how](experimenter.md#how-much-is-left-to-pay)).
+A range without an upper end holds a run that never got there.
+
+The 80 % range held {totals}.
+For {early} of the {shown} runs it was too early to say.{others}
+
+| run | at a quarter: units | the 80 % range | it got there at | in the range |
+|---|---|---|---|---|
+{rows}
+"""
+
+
+def report(runs: Sequence[Run], quarter: Sequence[Case]) -> str:
+    """Return a document about the forecasts of each run at a quarter of its units."""
+
+    def held(words: str, chose: bool | None) -> str:
+        said = [case for case in quarter if case.span is not None and chose in (None, case.run.chose)]
+        return f"{sum(case.covered for case in said)} of {len(said)} {words}"
+
+    totals = (
+        f"{held('runs', None)}: {held('with odd seeds, which measure,', False)} and\n"
+        f"{held('with even seeds, which chose the constants', True)}"
+    )
+    rows = [row_of(case) for case in sorted(quarter, key=lambda case: (case.run.settings, case.run.seed))]
+    early = sum(case.span is None for case in quarter)
+    done = len(runs) - len(quarter)
+    others = f" {done} more had reached 90 % before." if done else ""
+    return REPORT.format(totals=totals, early=early, shown=len(quarter), others=others, rows="\n".join(rows))
+
+
+def row_of(case: Case) -> str:
+    """Return a row about one forecast."""
+
+    def amount(units: float) -> str:
+        return f"{units:,.0f}" if units < math.inf else "never"
+
+    values = dict(zip((*SETTINGS, *MORE_SETTINGS), case.run.settings, strict=True))
+    shown = [values[name] for name in ("algorithm", "domain", "instances", "preset")]
+    shown += [f"{values['episodes']} episodes"]
+    shown += [f"{name} {values[name]}" for name in ("warm_start", "told") if values[name]]
+    shown += ["redraw"] if values["redraw"] == "True" else []
+    shown += [f"`{values['values']}`"] if values["values"] else []
+    about = f"{', '.join(shown)}, seed {case.run.seed}"
+    if case.span is None:
+        span = "too early"
+    else:
+        span = "never" if case.span.low == math.inf else f"{amount(case.span.low)} to {amount(case.span.high)}"
+    held = "" if case.span is None else "yes" if case.covered else "**no**"
+    return f"| {about} | {amount(case.spent)} | {span} | {amount(case.truth)} | {held} |"
+
+
 def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--to", type=Path, metavar="FOLDER", help="where to write backtest.csv.gz")
+    parser.add_argument("--report", type=Path, metavar="FILE", help="where to write one row per run")
     parser.add_argument("--score", action="store_true", help="print only the score of the runs that choose")
     arguments = parser.parse_args()
     runs = committed()
@@ -247,6 +304,9 @@ def main() -> None:
     if arguments.to:
         arguments.to.mkdir(parents=True, exist_ok=True)
         write(arguments.to / "backtest.csv.gz", found)
+    if arguments.report:
+        every = [case for case in found if case.target == "0.9" and case.information == "all other runs"]
+        arguments.report.write_text(report(runs, [case for case in every if case.part == PARTS[0]]))
     for chose, words in ((False, "odd seeds"), (True, "even seeds, which chose the constants")):
         ninety = [case for case in found if case.run.chose == chose and case.target == "0.9"]
         by_cut = {

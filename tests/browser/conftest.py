@@ -65,6 +65,14 @@ def served(built_page: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterat
 
 
 @pytest.fixture
+def empty(built_page: Path, tmp_path: Path) -> Iterator[Served]:
+    """A server without a run."""
+    settings = Settings(database=f"sqlite:///{tmp_path / 'empty.db'}", page=built_page)
+    with serving.background(settings) as served:
+        yield served
+
+
+@pytest.fixture
 def learner(served: Served) -> Iterator[Learner]:
     """The learner's side."""
     learner = Learner(served)

@@ -1,8 +1,5 @@
 """Everybody can use it: axe finds nothing in any view or state, light and dark, on a desktop, a tablet and a phone."""
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 from playwright.sync_api import Page, expect
 from tests.browser import test_play
@@ -12,11 +9,8 @@ from tests.browser.hands.keyboard import give
 from tests.browser.kit import Complaints, Learner, ask, begun_run, wait_for_heading
 from tests.examples.page import asked, wait_for
 
-from waypost import wire
 from waypost.domains import find_domain
-from waypost_server import serving
 from waypost_server.serving import Served
-from waypost_server.settings import Settings
 
 KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
 # The views of an experimenter at addresses of their own, and the heading or another part that says that they are there.
@@ -44,14 +38,6 @@ def dialog(page: Page, name: str, *keys: str) -> None:
     check(page, name)
     page.keyboard.press("Escape")
     page.get_by_role("dialog").wait_for(state="detached")
-
-
-@pytest.fixture
-def empty(built_page: Path, tmp_path: Path) -> Iterator[Served]:
-    """A server without a run."""
-    settings = Settings(database=f"sqlite:///{tmp_path / 'empty.db'}", page=built_page)
-    with serving.background(settings) as served:
-        yield served
 
 
 def test_questions_and_their_dialogs(open_page: Open, learner: Learner) -> None:
@@ -116,11 +102,11 @@ def test_work_without_a_server_a_session_or_the_right(
         check(page, path)
 
 
-@pytest.mark.parametrize("role", ["annotator", "admin"])
-def test_a_server_without_a_run(open_page: Open, empty: Served, role: wire.Role) -> None:
-    page = open_page("/work", role=role, at=empty)
-    page.get_by_text("No learner has been started").wait_for()
-    check(page, "work")
+def test_a_server_without_a_run(empty: Served, open_page: Open) -> None:
+    for role in ("annotator", "admin"):
+        page = open_page("/work", role=role, at=empty)
+        page.get_by_text("No learner has been started").wait_for()
+        check(page, f"work, {role}")
     page.goto("/runs")
     page.get_by_text("No learner has been started").wait_for()
     check(page, "runs")

@@ -9,6 +9,7 @@ from playwright.sync_api import Route, expect
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, ask, log_in, login_link, wait_for_heading
 
+from waypost import wire
 from waypost_server import serving
 from waypost_server.settings import Settings
 
@@ -360,7 +361,18 @@ def test_a_login_link_opens_once(open_page: Open, served: serving.Served, compla
 
 def test_a_login_link_can_lead_to_a_run(open_page: Open, learner: Learner, served: serving.Served) -> None:
     run = learner.create_run("led here")
-    page = open_page(login_link(served, "led", "annotator").replace("/login#", f"/login?run={run}#"), role=None)
+    learner.ask(run, ask("inspect_full", question="The question of this run"))
+
+    def link(role: wire.Role) -> str:
+        return login_link(served, f"led {role}", role).replace("/login#", f"/login?run={run}#")
+
+    page = open_page(link("viewer"), role=None)
+    expect(page.get_by_role("heading", name="led here")).to_be_visible()
+    page = open_page(link("annotator"), role=None)
+    page.get_by_text("Worked example").wait_for()  # somebody new practices first
+    page.keyboard.press("Escape")
+    wait_for_heading(page, "The question of this run")
+    page.goto(link("annotator"))
     expect(page.get_by_role("heading", name="led here")).to_be_visible()
 
 

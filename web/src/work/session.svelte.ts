@@ -35,6 +35,7 @@ export class WorkSession {
   assignment: Assignment | null = $state.raw(null);
   shown = $state(0); // how many queries have been put on the screen
   notice: Notice | null = $state.raw(null);
+  answered: Answer | null = $state.raw(null); // the last answer, as long as its toast is shown
   me: Me | null = $state.raw(null);
   outlook: Outlook | null = $state.raw(null);
 
@@ -103,6 +104,7 @@ export class WorkSession {
     const lease = proofOf(this.assignment);
     this.#heartbeat.stop();
     this.notice = null;
+    this.answered = answer;
     this.phase = 'sending';
     this.#sent = [...this.#sent, lease].slice(-UNDO_DEPTH);
     const sent = this.#send({ ...lease, answer, key: newName(`answer-${lease.assignment}`), attempts: 0 });
@@ -142,6 +144,7 @@ export class WorkSession {
       this.#warn(t('Your last answer is not saved yet, so it cannot be taken back. Try again in a moment.'));
       return;
     }
+    this.answered = null;
     try {
       const assignment = await this.#server.retract(last, this.#tab);
       this.#sent = this.#sent.slice(0, -1);
@@ -305,6 +308,7 @@ export class WorkSession {
 
   #refused(reason: Refused, assignment: number): void {
     this.#sent = this.#sent.filter((lease) => lease.assignment !== assignment);
+    this.answered = null;
     this.#warn(refusalWords(reason));
     this.#heartbeat.now();
   }

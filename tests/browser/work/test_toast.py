@@ -1,0 +1,70 @@
+"""After an answer, a toast says what was answered and takes it back: by mouse, by finger, and by keyboard."""
+
+import pytest
+from playwright.sync_api import Page, expect
+from tests.browser.conftest import WIDE, Open
+from tests.browser.hands.pointer import Finger, Mouse
+from tests.browser.kit import Json, Learner, ask, wait_for_heading
+
+FIRST, SECOND = ask("inspect_full"), ask("label_hi", ordinal=1)
+PHONE = {"width": 390, "height": 844}
+
+
+def answered(learner: Learner, page: Page, run: str) -> int:
+    """Answer the first of two questions of a run with the keyboard; return its number."""
+    [first, _] = learner.ask(run, FIRST, SECOND)
+    page.goto(f"/work?run={run}")
+    wait_for_heading(page, FIRST["question"])
+    page.keyboard.press("f")
+    wait_for_heading(page, SECOND["question"])  # the toast has not taken the focus
+    expect(page.get_by_role("group", name="Your last answer")).to_contain_text("Answered: no, it failed.")
+    return first
+
+
+@pytest.mark.parametrize("by", ["mouse", "touch", "keyboard"])
+def test_an_answer_is_taken_back_from_the_toast(open_page: Open, learner: Learner, by: str) -> None:
+    page = open_page("/login", touch=by == "touch", size=PHONE if by == "touch" else WIDE)
+    first = answered(learner, page, learner.create_run("toast"))
+    learner.answer_of(first)
+    if by == "keyboard":
+        page.get_by_role("button", name="Take it back").press("Enter")
+    else:
+        (Finger if by == "touch" else Mouse)(page).press("Take it back")
+    wait_for_heading(page, FIRST["question"])
+    expect(page.get_by_role("group", name="Your last answer")).to_have_count(0)
+    page.keyboard.press("p")
+    expect(page.get_by_role("group", name="Your last answer")).to_contain_text("Answered: yes, it worked.")
+    assert learner.answer_of(first)["verdict"] == "pass"
+
+
+def test_the_toast_is_dismissed_or_waits_while_it_is_read(open_page: Open, learner: Learner) -> None:
+    page = open_page("/login")
+    page.clock.install()
+    answered(learner, page, learner.create_run("patient toast"))
+    toast = page.get_by_role("group", name="Your last answer")
+    page.clock.run_for(19_000)
+    toast.get_by_role("button", name="Dismiss").focus()
+    page.clock.run_for(60_000)
+    expect(toast).to_be_visible()
+    page.keyboard.press("Enter")
+    expect(toast).to_have_count(0)
+    expect(page.get_by_role("heading", name=SECOND["question"])).to_be_focused()
+    page.keyboard.press("Shift+Enter")
+    expect(toast).to_contain_text("5 labels sent.")
+    page.clock.run_for(21_000)
+    expect(toast).to_have_count(0)
+
+
+@pytest.mark.parametrize("size", [WIDE, {"width": 768, "height": 1024}, PHONE, {"width": 844, "height": 390}])
+def test_the_toast_covers_nothing_that_answers(open_page: Open, learner: Learner, size: Json) -> None:
+    page = open_page("/login", size=size)
+    answered(learner, page, learner.create_run("toast and buttons"))
+    toast = page.get_by_role("group", name="Your last answer").bounding_box()
+    assert toast is not None
+    for one in page.locator("main button, main a, main input, main canvas").all():
+        if (box := one.bounding_box()) is None:  # hidden in this window
+            continue
+        beside = box["x"] >= toast["x"] + toast["width"] or toast["x"] >= box["x"] + box["width"]
+        below = box["y"] >= toast["y"] + toast["height"] or toast["y"] >= box["y"] + box["height"]
+        assert beside or below, one.inner_text()
+    expect(page.get_by_role("button", name="Take it back")).to_be_in_viewport(ratio=1)
