@@ -6,6 +6,7 @@ from torch import nn
 _HIDDEN = 16
 _UPDATES = 200
 _LEARNING_RATE = 0.02
+_FARTHEST = 3.0  # standard deviations: what is farther away than all that was seen is seen as that far
 
 
 class Value:
@@ -60,5 +61,5 @@ class Value:
         return self._of(features)
 
     def _of(self, features: torch.Tensor) -> torch.Tensor:
-        out: torch.Tensor = self._network((features - self._mean) / self._scale)
+        out: torch.Tensor = self._network(((features - self._mean) / self._scale).clamp(-_FARTHEST, _FARTHEST))
         return self._low + (self._high - self._low) * torch.sigmoid(out.squeeze(1))

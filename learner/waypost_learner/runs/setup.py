@@ -57,8 +57,8 @@ def _refuse_a_blind_gate(learner: Learner) -> None:
     views = shared is not None and (not shared.is_told or len(shared.symmetries) > 0)
     if learner.preset.gate.kind == "thrifty" and not views:
         raise ValueError(
-            "gate.kind=thrifty compares symmetric views, which needs policies that share a network, and symmetries: "
-            "use --preset general in a domain that has them, or gate.kind=lazy or gate.kind=aim"
+            'gate.kind="thrifty" compares symmetric views, which needs policies that share a network, and symmetries: '
+            'use --preset general in a domain that has them, or gate.kind="lazy" or gate.kind="aim"'
         )
 
 
