@@ -49,8 +49,9 @@ def main() -> None:
     for name, some in groupby(rows, key=lambda one: one[0].name):
         costs = [one for _, one in some]
         for goal in GOALS:
-            cells = (cell(column) for column in zip(*(one[goal] for one in costs), strict=True))
-            print(f"| {name} | {len(costs)} | {goal:.0%} | {' | '.join(cells)} |".replace("%", " %"))
+            units, keys, minutes = zip(*(one[goal] for one in costs), strict=True)
+            success = f"{goal:.0%}".replace("%", " %")
+            print(f"| {name} | {len(costs)} | {success} | {cell(units)} | {cell(keys)} | {cell(minutes, 1)} |")
 
 
 if __name__ == "__main__":

@@ -124,11 +124,12 @@ def lines_of(groups: Sequence[tuple[str, Sequence[Run]]]) -> Iterator[str]:
         yield f"| {name} | {len(runs)} | {' | '.join(cells)} |"
 
 
-def cell(values: Sequence[float]) -> str:
+def cell(values: Sequence[float], decimals: int = 0) -> str:
     """Return a median and a range in words."""
     found = spread(values)
     assert found is not None
-    median, low, high = ("never" if math.isinf(one) else f"{one:,.0f}" for one in (found.median, found.low, found.high))
+    numbers = found.median, found.low, found.high
+    median, low, high = ("never" if math.isinf(one) else f"{one:,.{decimals}f}" for one in numbers)
     return f"{median} ({low} to {high})"
 
 
