@@ -39,15 +39,17 @@ EXPLANATION = "Lines: medians over the seeds. Bands: ranges. Measured after each
 
 @dataclass(frozen=True)
 class Run:
-    """A run: its name in the table, its seed, its measurements (episode, units, instances, successes)."""
+    """A run: its id, its name in the table, its seed, its measurements (episode, units, instances, successes)."""
 
+    id: str
     name: str
     seed: int
     rows: Sequence[tuple[int, float, int, int]]
 
-    def units_to(self, goal: float) -> float:
-        """Return the units of the first measurement that is at least as high as the goal; infinite without one."""
-        return next((units for _, units, n, successes in self.rows if successes >= goal * n), math.inf)
+    def first_at(self, goal: float) -> tuple[float, float]:
+        """Return the episode and units of the first measurement as high as the goal; both infinite without one."""
+        found = ((episode, units) for episode, units, n, successes in self.rows if successes >= goal * n)
+        return next(found, (math.inf, math.inf))
 
 
 def runs_of(store: Path) -> Iterator[Run]:
@@ -59,17 +61,18 @@ def runs_of(store: Path) -> Iterator[Run]:
                 (int(row["episode"]), float(row["units"]), int(row["episodes"]), int(row["successes"]))
                 for row in csv.DictReader(opened)
             ]
-        yield Run(name_of(config), config.seed, rows)
+        yield Run(file.name.removesuffix(".measured.csv"), name_of(config), config.seed, rows)
 
 
 def name_of(config: TrainConfig) -> str:
-    """Return the algorithm, the preset, the level of what the learner is told, and the number of demonstrations."""
+    """Return the algorithm, preset, level of what the learner is told, number of demonstrations, and changed values."""
     preset = find_preset(config.preset, domain=config.domain)
     told = config.told or level_of(preset, q_functions=False)
     if config.algorithm == "h-bc":
         return f"{config.algorithm} {config.preset}, told {told}"
     warm = preset.warm_start if config.warm_start is None else config.warm_start
-    return f"{config.algorithm} {config.preset}, told {told}, {warm} demonstration{'s' * (warm != 1)}"
+    changed = f", {config.values}" if config.values else ""
+    return f"{config.algorithm} {config.preset}, told {told}, {warm} demonstration{'s' * (warm != 1)}{changed}"
 
 
 def write(path: Path, runs: Iterable[Run]) -> None:
@@ -117,13 +120,17 @@ def lines_of(groups: Sequence[tuple[str, Sequence[Run]]]) -> Iterator[str]:
     for name, runs in groups:
         cells = []
         for goal in GOALS:
-            found = spread([run.units_to(goal) for run in runs])
-            assert found is not None
-            median, low, high = (
-                "never" if math.isinf(one) else f"{one:,.0f}" for one in (found.median, found.low, found.high)
-            )
-            cells.append(f"{median} ({low} to {high})")
+            cells.append(cell([run.first_at(goal)[1] for run in runs]))
         yield f"| {name} | {len(runs)} | {' | '.join(cells)} |"
+
+
+def cell(values: Sequence[float], decimals: int = 0) -> str:
+    """Return a median and a range in words."""
+    found = spread(values)
+    assert found is not None
+    numbers = found.median, found.low, found.high
+    median, low, high = ("never" if math.isinf(one) else f"{one:,.{decimals}f}" for one in numbers)
+    return f"{median} ({low} to {high})"
 
 
 def main() -> None:

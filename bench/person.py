@@ -47,6 +47,12 @@ def effort(query: wire.Query) -> tuple[int, int]:
     raise ValueError(f"query {query.id} has no answer")
 
 
+def minutes_of(query: wire.Query) -> float:
+    """Return the minutes that an answer takes: the time to watch, and a time per decision."""
+    watching = 0 if query.ask.kind == "hier_demo" else WATCHING
+    return (watching + effort(query)[1] * SECONDS[query.ask.kind]) / 60
+
+
 def _last_change(own: list[str] | list[str | None], labels: list[str] | list[str | None]) -> int:
     """Return how many labels must be entered one by one; after these, one key keeps the learner's other choices."""
     changed = [place for place, (before, after) in enumerate(zip(own, labels, strict=True), 1) if before != after]
@@ -82,8 +88,7 @@ def main() -> None:
         n_keys, n_decisions = effort(query)
         keys[query.ask.kind] += n_keys
         decisions[query.ask.kind] += n_decisions
-        watching = 0 if query.ask.kind == "hier_demo" else WATCHING
-        minutes[query.ask.kind] += (watching + n_decisions * SECONDS[query.ask.kind]) / 60
+        minutes[query.ask.kind] += minutes_of(query)
     asked = Counter(query.ask.kind for query in queries)
     level = f"{float(arguments.success):.0%}"
     print(f"Success reached {level} in episode {milestone.episode}, after {milestone.cost:,.0f} units.\n")

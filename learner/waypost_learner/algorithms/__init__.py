@@ -12,6 +12,7 @@ from waypost_learner.algorithms.h_dqn import h_dqn
 from waypost_learner.algorithms.hg_dagger import hg_dagger
 from waypost_learner.algorithms.hg_dagger_by_place import hg_dagger_by_place
 from waypost_learner.algorithms.hg_dagger_q import hg_dagger_q
+from waypost_learner.algorithms.hg_gated import hg_gated
 from waypost_learner.algorithms.hg_stagger import hg_stagger
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.naive_h_dagger import naive_h_dagger
@@ -35,6 +36,7 @@ class Algorithm:
     levels: Levels = HIERARCHY
     monitored: bool = False  # whether episodes begin with Inspect_FULL, so that monitoring may skip them
     by_place: bool = False  # whether what is asked depends on the places that the domain declares
+    gated: bool = False  # whether a gate decides what is asked
 
     @property
     def interactive(self) -> bool:
@@ -54,6 +56,7 @@ ALGORITHMS = {
     "h-bc": Algorithm(h_bc),
     "hg-dagger": Algorithm(hg_dagger, warm_start=h_bc, monitored=True),
     "hg-dagger-by-place": Algorithm(hg_dagger_by_place, warm_start=h_bc, monitored=True, by_place=True),
+    "hg-gated": Algorithm(hg_gated, warm_start=h_bc, gated=True),
     "hg-stagger": Algorithm(hg_stagger, warm_start=h_bc, monitored=True),
     "naive-h-dagger": Algorithm(naive_h_dagger, warm_start=h_bc),
     "flat-bc": Algorithm(flat_bc, levels=_FLAT),

@@ -10,9 +10,13 @@ from typing import Any
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 
 from waypost.domains import Domain, Placed, Symmetric, Symmetry, symmetries_of
-from waypost.trajectory import Segment, State, Trajectory
+from waypost.trajectory import Observation, Segment, State, Trajectory
+from waypost_learner.gates import make_gate
+from waypost_learner.gates.gate import Doubts
+from waypost_learner.gates.views import seen_in
 from waypost_learner.policies.datasets import Dataset, Row
 from waypost_learner.policies.domain_use import DomainUse
 from waypost_learner.policies.dqn import DqnSpec, QFunction
@@ -82,6 +86,7 @@ class Learner:
         self.learned: dict[PolicyKey, Policy | SharedPolicy | QFunction] = {**self.imitators, **self.q}
         self.policies = {key: self._evaluated(key) for key in keys}
         self.data = {key: Dataset(self.views[key].view.shape) for key in (keys if self.shared else self.imitators)}
+        self.gate = make_gate(preset.gate, seed)
         self.explorations = dict(self._explorations(keys))
         self._together: Sequence[Start] = ()  # whose rollouts `roll_out` makes when it is given the first of them
         self._rolled_out: dict[Start, Trajectory] = {}  # their rollouts that were not returned yet
@@ -182,6 +187,15 @@ class Learner:
         """Return the position of a random segment of sigma, a rollout from s. All segments are equally likely."""
         return int(np.random.default_rng([self.seed, streams.SEGMENT, s.draw]).integers(len(sigma)))
 
+    def doubts(self, sigma: Trajectory) -> Doubts:
+        """Return what the gate doubts in sigma, a rollout of the current policies."""
+        return self.gate.doubts(seen_in(sigma, self.policies, self._disagreement))
+
+    def _disagreement(self, key: PolicyKey, observations: Observation) -> NDArray[np.float32]:
+        if self.shared is None:
+            return np.zeros(len(observations), np.float32)
+        return self.shared.disagreement(key, observations)
+
     def first_visits(self, sigma: Trajectory) -> Sequence[int]:
         """Return the positions of the segments that began in a place where no earlier segment of sigma began.
 
@@ -247,6 +261,7 @@ class Learner:
         rows = rows_of(labels, relabeling if use.relabeling else None, self.preset.training.from_passed)
         several = use.symmetries and self.shared is None  # a shared network transforms rows itself
         self._append_rows(rows, symmetries_of(self.domain) if several else ())
+        self.gate.learn(labels.judged)
         if self.q:
             self._remember(list(self._experience_of(labels)))
         if self.shared is not None:

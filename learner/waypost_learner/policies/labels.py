@@ -6,6 +6,7 @@ An algorithm appends to `Labels` in the order of the paper's lines. `rows_of` tu
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 
@@ -36,6 +37,7 @@ class Labels:
     flat: list[tuple[Trajectory, tuple[Action, ...]]] = field(default_factory=list)
     experience: list[tuple[PolicyKey, Trajectory]] = field(default_factory=list)
     passed: list[Segment] = field(default_factory=list)  # of rollouts: the learner's own, which the expert passed
+    judged: dict[Literal["hi", "lo"], list[Row]] = field(default_factory=dict)  # what a gate learns from a rollout
 
     def append_hi(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> None:
         """D_HI <- D_HI + {(s_h, g*_h)}."""

@@ -5,6 +5,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
+from waypost_learner.gates.gate import LAZY, GateSpec
 from waypost_learner.policies.domain_use import NOTHING_DECLARED, DomainUse
 from waypost_learner.policies.dqn import DqnSpec
 from waypost_learner.policies.fields.field_net import FieldSpec
@@ -58,6 +59,7 @@ class Preset:
     training: Training
     use: DomainUse = NOTHING_DECLARED  # what is used of the domain's declarations
     monitoring: Monitoring = EVERY_EPISODE  # which episodes the expert inspects
+    gate: GateSpec = LAZY  # what hg-gated asks
 
     def with_values(self, **values: Any) -> "Preset":
         """Return the preset with other values, given by name, such as `with_values(relabeling=False)`.

@@ -9,6 +9,7 @@ Tensors, where KEY is a policy's number (`PolicyKey.number`):
 - `trained.KEY.NAME`, `averaged.KEY`: if an average of the weights acts, the trained weights and the number of updates.
 - `target.KEY.NAME`, `counts.KEY`, `attempts.KEY`: a Q-function's target network; its steps, its updates, whether
   any attempt succeeded and whether it is mastered; its last attempts.
+- `gate.LEVEL.*`: what a gate remembers of each level.
 - `exploration.KEY`: what the exploration of a subgoal knows, as JSON.
 
 The file's metadata holds the `Header` as JSON. No code is stored, so loading a file runs none.
@@ -119,6 +120,9 @@ def _restore(tensors: Tensors, learner: Learner) -> None:
     if learner.shared is not None and "transitions.labels" in tensors:
         learner.shared.transitions.load(_below(tensors, "transitions."))
         learner.shared.ends.load(_below(tensors, "ends."))
+    for level, memory in learner.gate.memory.items():
+        if f"gate.{level}.labels" in tensors:
+            memory.load(_below(tensors, f"gate.{level}."))
     for key, q in learner.q.items():
         n = key.number
         if f"rng.{n}" in tensors:
@@ -158,6 +162,9 @@ def _training_state(learner: Learner) -> Tensors:
     if learner.shared is not None:
         for kept, data in (("transitions", learner.shared.transitions), ("ends", learner.shared.ends)):
             tensors |= {f"{kept}.{name}": tensor for name, tensor in data.tensors().items()}
+    for level, memory in learner.gate.memory.items():
+        if len(memory):
+            tensors |= {f"gate.{level}.{name}": tensor for name, tensor in memory.tensors().items()}
     for key, policy in learner.imitators.items():
         if policy.average is not None:
             tensors |= {f"trained.{key.number}.{name}": tensor for name, tensor in policy.network.state_dict().items()}

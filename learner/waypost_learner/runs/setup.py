@@ -57,11 +57,23 @@ def set_up(config: TrainConfig, threads: int | None) -> Setup:
     strangers = learner.preset.training.dqn_of.keys() - set(learner.domain.subgoals)
     if strangers:
         raise ValueError(f"dqn_of names {min(strangers)!r}, but the subgoals are: {', '.join(learner.domain.subgoals)}")
+    if algorithm.gated:
+        _refuse_a_blind_gate(learner)
     refuse_useless_values(config, algorithm, learner)
     missing = missing_parts(learner)
     if algorithm.by_place and not isinstance(learner.domain, Placed):
         missing["places to label once"] = "Each segment is labeled."
     return Setup(config, algorithm, learner, learner.domain.instances(config.instances), missing)
+
+
+def _refuse_a_blind_gate(learner: Learner) -> None:
+    shared = learner.shared
+    views = shared is not None and (not shared.is_told or len(shared.symmetries) > 0)
+    if learner.preset.gate.kind == "thrifty" and not views:
+        raise ValueError(
+            'gate.kind="thrifty" compares symmetric views, which needs policies that share a network, and symmetries: '
+            'use --preset general in a domain that has them, or gate.kind="lazy" or gate.kind="aim"'
+        )
 
 
 def build_learner(config: TrainConfig, threads: int | None) -> Learner:

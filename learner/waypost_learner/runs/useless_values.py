@@ -127,6 +127,7 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
             algorithm.monitored and not config.redraw,
             f"only {monitored} are monitored, and only without --redraw",
         ),
+        "gate": (algorithm.gated, f"{name} asks without a gate, unlike hg-gated"),
         "monitoring.rate": (preset.monitoring.share < 1, "monitoring.share is 1"),
         "monitoring.confidence": (preset.monitoring.share < 1, "monitoring.share is 1"),
     }

@@ -5,6 +5,7 @@ from collections.abc import Generator
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -20,6 +21,7 @@ from waypost_learner.algorithms.h_dqn import h_dqn
 from waypost_learner.algorithms.hg_dagger import hg_dagger
 from waypost_learner.algorithms.hg_dagger_by_place import hg_dagger_by_place
 from waypost_learner.algorithms.hg_dagger_q import hg_dagger_q
+from waypost_learner.algorithms.hg_gated import hg_gated
 from waypost_learner.algorithms.hg_stagger import hg_stagger
 from waypost_learner.algorithms.naive_h_dagger import naive_h_dagger
 from waypost_learner.algorithms.plain_dagger import plain_dagger
@@ -32,6 +34,8 @@ from waypost_learner.algorithms.queries import (
     LabelLo,
     Query,
 )
+from waypost_learner.gates.gate import Doubts
+from waypost_learner.gates.views import N_FEATURES, Seen
 from waypost_learner.policies.labels import Labels, LoLabels, rows_of
 from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 from waypost_learner.rollout.simulator import Start
@@ -213,6 +217,53 @@ def test_stagger_learns_nothing_of_an_episode_that_passed() -> None:
     expert = Expert(sigma, passes=True, good_subgoals=[0, 1], lo_passes=[True, True])
     assert rows_of(carried_out(hg_stagger(S, learner), expert)) == {}
     assert expert.asked == [InspectFull(sigma)]
+
+
+def gated_episode(
+    hi: list[bool], lo: list[bool], good_subgoals: list[int], lo_passes: list[bool]
+) -> tuple[Trajectory, Expert, Labels]:
+    sigma = tuple(segment(subgoal, n_actions=2) for subgoal in (0, 1, 2))
+    seen: Seen = {"hi": np.zeros((3, N_FEATURES), np.float32), "lo": np.zeros((3, N_FEATURES), np.float32)}
+    learner: Any = ScriptedLearner(sigma)
+    learner.doubts = lambda given: Doubts(hi, lo, seen) if given == sigma else None
+    expert = Expert(sigma, False, good_subgoals, lo_passes)
+    return sigma, expert, carried_out(hg_gated(S, learner), expert)
+
+
+def answers(labels: Labels) -> dict[str, list[int]]:
+    """What a gate learns of each segment: 0 for right, 1 for wrong, -1 for nothing."""
+    return {level: [row.choice for row in rows] for level, rows in labels.judged.items()}
+
+
+def test_gated_a_rollout_without_doubts_costs_nothing() -> None:
+    _, expert, labels = gated_episode([False] * 3, [False] * 3, [0, 1, 2], [False] * 3)
+    assert expert.asked == []
+    assert rows_of(labels, from_passed=True) == {}
+    assert answers(labels) == {"hi": [-1, -1, -1], "lo": [-1, -1, -1]}
+
+
+def test_gated_only_what_is_doubted_is_asked_about_each_level_by_itself() -> None:
+    sigma, expert, labels = gated_episode([False, True, False], [True, False, True], [0, 1, 2], [True, False, False])
+    assert expert.asked == [
+        InspectLo(sigma[0], before=()),
+        LabelHi(sigma[1:2], before=sigma[:1]),
+        InspectLo(sigma[2], before=sigma[:2]),
+        LabelLo(sigma[2], before=sigma[:2]),
+    ]
+    assert [row.choice for row in rows_of(labels)[META]] == [1]
+    assert rows_of(labels, from_passed=True).keys() == {META, pi(0), pi(2)}
+    assert answers(labels) == {"hi": [-1, 0, -1], "lo": [0, -1, 1]}
+
+
+def test_gated_nothing_is_asked_after_the_first_thing_that_is_wrong() -> None:
+    sigma, expert, labels = gated_episode([True] * 3, [True] * 3, [0, 3, 2], [True, False, False])
+    assert expert.asked == [LabelHi(sigma[:1]), InspectLo(sigma[0]), LabelHi(sigma[1:2], before=sigma[:1])]
+    assert [row.choice for row in rows_of(labels)[META]] == [0, 3]
+    assert answers(labels) == {"hi": [0, 1, -1], "lo": [0, -1, -1]}
+
+    sigma, expert, labels = gated_episode([True] * 3, [True] * 3, [0, 1, 2], [False, True, True])
+    assert expert.asked == [LabelHi(sigma[:1]), InspectLo(sigma[0]), LabelLo(sigma[0])]
+    assert answers(labels) == {"hi": [0, -1, -1], "lo": [1, -1, -1]}
 
 
 def test_by_place_the_authors_hg_dagger_labels_first_visits_and_goes_on_after_what_is_wrong() -> None:

@@ -130,6 +130,13 @@ def test_what_is_trained_on_and_how_many_passed_survives_an_interruption(tmp_pat
         assert interrupted(path, config, episode, before_it_arrives=True, route="/episodes") == expected
 
 
+def test_what_a_gate_remembers_survives_an_interruption(tmp_path: Path) -> None:
+    config = corridor(algorithm="hg-gated", values='gate.kind="aim" gate.share=0.5', episodes=20)
+    expected = uninterrupted(tmp_path / "uninterrupted", config)
+    path = tmp_path / "interrupted"
+    assert interrupted(path, config, 14, before_it_arrives=True, route="/episodes") == expected
+
+
 @pytest.mark.timeout(120)
 def test_a_question_that_was_in_the_dead_experts_hands_is_given_back_at_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -44,6 +44,8 @@ def test_a_warm_start_is_for_algorithms_that_have_one(algorithm: str) -> None:
         ("hg-dagger-q", "corridor", "dqn.exploration.wander=9", "the domain .corridor. declares no places"),
         ("hg-dagger", "corridor", "planning=16", "no policy of hg-dagger has a view"),
         ("hg-dagger", "maze", "monitoring.rate=0.8", "monitoring.share is 1"),
+        ("hg-dagger", "maze", "gate.share=0.1", "asks without a gate"),
+        ("hg-gated", "maze", "monitoring.share=0.5", "only hg-dagger, .* are monitored"),
         ("h-bc", "maze", "from_passed=true", "in h-bc the expert passes nothing that a policy could imitate"),
     ],
 )

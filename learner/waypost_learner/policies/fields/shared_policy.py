@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import nn
 from torch.nn import functional
 from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
@@ -121,6 +122,20 @@ class SharedPolicy:
         The less an end of a subgoal is seen, the more its pi_g acts as a flat policy does. With symmetries, logarithms
         of probabilities, and logits of terminations, are averages over them.
         """
+        return {name: views.mean(0) for name, views in self._views(observations).items()}
+
+    @torch.inference_mode()
+    def disagreement(self, key: PolicyKey, observations: Observation) -> NDArray[np.float32]:
+        """Return how much the symmetric views of each picture disagree about what mu or a pi_g chooses, float32[B].
+
+        This is the sum of the variances of the choices' probabilities; 0 without symmetries.
+        """
+        views = self._views(observations)
+        logs = views["hi"] if key.subgoal is None else views["lo"][:, :, key.subgoal]
+        return logs.softmax(-1).var(0, correction=0).sum(-1).cpu().numpy()
+
+    def _views(self, observations: Observation) -> dict[str, torch.Tensor]:
+        """Return what each symmetric view of the pictures says, transformed back, [views, B, ...]."""
         n, symmetries = len(observations), self.symmetries
         seen = [observations, *(np.stack([each.observe(one) for one in observations]) for each in symmetries)]
         out = self.acting(as_input(np.concatenate(seen)).to(DEVICE))
@@ -128,18 +143,18 @@ class SharedPolicy:
         subgoals: list[slice | list[int]] = [slice(None), *(list(each.subgoals) for each in symmetries)]
         actions: list[slice | list[int]] = [slice(None), *(list(each.actions) for each in symmetries)]
 
-        def averaged(name: str, choices: Sequence[slice | list[int]]) -> torch.Tensor:
+        def stacked(name: str, choices: Sequence[slice | list[int]]) -> torch.Tensor:
             logs = out[name] if name == "termination" else torch.log_softmax(out[name], -1)
             parts = [one[..., chosen] for one, chosen in zip(logs.split(n), choices, strict=True)]
             if name == "lo":
                 parts = [one[:, chosen] for one, chosen in zip(parts, subgoals, strict=True)]
-            return torch.stack(parts).mean(0)
+            return torch.stack(parts)
 
         return {
-            "hi": averaged("hi", subgoals),
-            "lo": averaged("lo", actions),
-            "termination": averaged("termination", subgoals),
-            "flat": averaged("flat", actions),
+            "hi": stacked("hi", subgoals),
+            "lo": stacked("lo", actions),
+            "termination": stacked("termination", subgoals),
+            "flat": stacked("flat", actions),
         }
 
     def of(self, key: PolicyKey) -> "PartPolicy":
