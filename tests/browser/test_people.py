@@ -1,5 +1,8 @@
 """People in the page: let in, sent away, their tokens and numbers; practice; gold queries nobody can tell apart."""
 
+from contextlib import closing
+
+import httpx2
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, ask, login_link, wait_for_heading
@@ -78,11 +81,19 @@ def test_everybody_has_a_page_of_their_own(open_page: Open, complaints: Complain
     expect(page.get_by_role("heading", name="This is for administrators")).to_be_visible()
     page.get_by_role("link", name="your own account").click()
     page.get_by_label("What it is for").fill("my laptop")
+    page.get_by_role("combobox", name="Valid for").select_option("30 days")
+    page.get_by_role("checkbox", name="see what the account sees").press("Space")
     page.get_by_role("button", name="Create a token").press("Enter")
-    token = shown_once(page, "New API token")
-    assert page.request.get("/api/v1/me", headers={"Authorization": f"Bearer {token}"}).ok
+    token = {"Authorization": f"Bearer {(secret := shown_once(page, 'New API token'))}"}
+    with closing(httpx2.Client(base_url=page.url.removesuffix("/me"), headers=token)) as program:
+        assert program.get("/api/v1/me").is_success
+        [made] = program.get("/api/v1/me/tokens").json()["tokens"]
+        assert 29 <= (made["expires_at"] - made["created_at"]) / 86_400 <= 31
+        refused = program.post("/api/v1/assignments", json={"wait": 0})
+        assert (refused.status_code, refused.json()["type"].rpartition("/")[2]) == (403, "out-of-scope")
+    expect(page.get_by_role("row", name="my laptop")).to_contain_text("see what the account sees")
     expect(page.get_by_role("row", name="my laptop")).to_be_visible()
-    assert token not in page.content()
+    assert secret not in page.content()
     page.get_by_role("button", name="Revoke my laptop").click()
     page.get_by_role("button", name="Revoke it").press("Enter")
     expect(page.get_by_role("row", name="my laptop")).to_be_hidden()

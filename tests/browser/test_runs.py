@@ -344,6 +344,7 @@ def test_an_answer_is_found_sent_back_and_read_by_its_annotator(
     page.get_by_role("link", name="Review").click()
     shown = page.locator("h2[data-query]")
     expect(shown).to_have_attribute("data-query", str(third))
+    expect(page.get_by_text("Demonstrations are not answered twice")).to_be_visible()
     page.get_by_label("Differs from").select_option("suggestion")
     expect(page.get_by_text("2 answers to review")).to_be_visible()
     expect(shown).to_have_attribute("data-query", str(second))

@@ -46,6 +46,7 @@ export type Agreement = Schemas['Agreement'];
 export type ReviewPage = Schemas['ReviewPage'];
 export type ReviewRow = Schemas['ReviewRow'];
 export type Numbers = Schemas['Numbers'];
+export type Scope = NonNullable<Token['scopes']>[number];
 export type Token = Schemas['Token'];
 export type Session = Schemas['Session'];
 export type Gold = Schemas['Gold'];
