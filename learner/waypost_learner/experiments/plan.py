@@ -221,17 +221,17 @@ _LEAN = (
     ),
 )
 
-_ROOM = TrainConfig("hg-dagger-q", domain="montezuma", episodes=600)  # fewer than 100,000 LO samples
+_ROOM = TrainConfig("hg-dagger-q", domain="montezuma", episodes=550)  # fewer than 100,000 LO samples
 
 
 def _room(
-    label: str, algorithm: str, instances: str = "random", episodes: int = 600, values: str | None = None
+    label: str, algorithm: str, instances: str = "random", episodes: int = _ROOM.episodes, values: str | None = None
 ) -> Series:
     config = replace(_ROOM, algorithm=algorithm, instances=instances, episodes=episodes, values=values)
     return Series(config, label)
 
 
-# As many LO samples as hg-DAgger/Q takes in its 600 episodes: attempts that fail are long. Tests fail too, and would
+# As many LO samples as hg-DAgger/Q takes in its 550 episodes: attempts that fail are long. Tests fail too, and would
 # take most of the time, so there are fewer.
 _ROOM_H_DQN = replace(_ROOM, algorithm="h-dqn", episodes=200, test_every=2)
 
