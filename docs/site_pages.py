@@ -26,11 +26,13 @@ OUTSIDE = {
     "bench/RESULTS.md": "benchmarks.md",
     "web/public/favicon.svg": "images/favicon.svg",
 }
-# The texts of the examples, and the files that these texts link to, keep their addresses.
+# The texts of the examples, the files that these texts link to, and the files to deploy keep their addresses.
+KEPT = {"examples": ("*.md", "*.sh", "*/*.md", "*/*.py", "*/ask.ts", "*/results/*.[ps][nv]g"), "deploy": ("*",)}
 OUTSIDE |= {
     name: name
-    for pattern in ("*.md", "*.sh", "*/*.md", "*/*.py", "*/ask.ts", "*/results/*.[ps][nv]g")
-    for name in sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "examples").glob(pattern))
+    for folder, patterns in KEPT.items()
+    for pattern in patterns
+    for name in sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / folder).glob(pattern))
 }
 LINK = re.compile(r"(\]\()([^)\s#:]+)((?:#[^)\s]*)?\))")
 
