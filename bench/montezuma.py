@@ -3,8 +3,8 @@
 Each of ours is compared with a plain loop of ale-py and PyTorch in the same run. The plain loop of steps makes the same
 pictures. The plain update is double DQN with the same network, loss and optimizer on transitions drawn uniformly from
 one array of pictures: no priorities, no demonstrations, no n-step returns. Both are filled with the same pictures. All
-run with one thread, in turns. Speeds and ratios are medians over the rounds. The script prints tables and asserts
-nothing.
+run with one thread, in turns, and compute updates on a CUDA device if there is one. Speeds and ratios are medians over
+the rounds. The script prints tables and asserts nothing.
 """
 
 import argparse
@@ -25,6 +25,7 @@ from torch.nn import functional
 
 from waypost.domains import find_domain
 from waypost_learner.domains.montezuma.game import ACTIONS
+from waypost_learner.policies.device import DEVICE
 from waypost_learner.policies.dqn import QFunction
 from waypost_learner.policies.views import policy_view
 from waypost_learner.presets import find_preset
@@ -45,7 +46,8 @@ def main() -> None:
     chosen = parser.parse_args()
     torch.set_num_threads(1)
     load = os.getloadavg()[0]
-    print(f"{platform.machine()}, {os.cpu_count()} cores, load {load:.1f}, torch {torch.__version__}.\n")
+    where = torch.cuda.get_device_name() if DEVICE.type == "cuda" else "no GPU"
+    print(f"{platform.machine()}, {os.cpu_count()} cores, {where}, load {load:.1f}, torch {torch.__version__}.\n")
     print("| what | plain, per second | ours, per second | ours / plain |")
     print("|---|---|---|---|", flush=True)
     compare("steps of the environment", chosen.steps, plain_steps, our_steps)
@@ -62,6 +64,8 @@ def compare(what: str, n: int, plain: Timed, ours: Timed) -> None:
         for loop in (plain, ours):
             began = time.perf_counter()
             loop(n)
+            if DEVICE.type == "cuda":
+                torch.cuda.synchronize()
             pair.append(n / (time.perf_counter() - began))
         speeds.append(pair)
     rows = [[pair[0] for pair in speeds], [pair[1] for pair in speeds], [pair[1] / pair[0] for pair in speeds]]
@@ -131,10 +135,11 @@ def updates(name: str, filled: int) -> tuple[Timed, Timed]:
         for _ in range(n):
             rows = rng.integers(0, filled, spec.batch)
             before, after = (
-                torch.from_numpy(pictures[(rows + ahead)[:, None] + stacked]).float().div_(255) for ahead in (0, 1)
+                torch.from_numpy(pictures[(rows + ahead)[:, None] + stacked]).to(DEVICE).float().div_(255)
+                for ahead in (0, 1)
             )
-            choice, reward = torch.from_numpy(choices[rows]), torch.from_numpy(rewards[rows])
-            with torch.autocast("cpu", torch.bfloat16, enabled=q.uses_bf16):
+            choice, reward = (torch.from_numpy(numbers[rows]).to(DEVICE) for numbers in (choices, rewards))
+            with torch.autocast(DEVICE.type, torch.bfloat16, enabled=q.uses_bf16):
                 with torch.no_grad():
                     best = network(after).argmax(1, keepdim=True)
                     wanted = reward + spec.discount * target(after).float().gather(1, best).squeeze(1)
