@@ -16,7 +16,7 @@ from torch import nn
 from torch.nn import functional
 
 from waypost.trajectory import Observation
-from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision, to_device
+from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision
 from waypost_learner.policies.exploration import ExplorationSpec
 from waypost_learner.policies.networks import NetworkSpec, PlanningSpec, build_network
 from waypost_learner.policies.replay import Replay
@@ -97,7 +97,7 @@ class QFunction:
     @torch.inference_mode()
     def __call__(self, observations: Observation) -> Outputs:
         """Return the Q-values of a batch float32 or uint8[B, observation shape], as logits."""
-        values = self.network(as_input(observations).to(DEVICE))
+        values = self.network(as_input(observations))
         return Outputs(values.cpu().numpy(), np.zeros(len(values), np.float32))
 
     @property
@@ -151,7 +151,7 @@ class QFunction:
         choice, reward, discount, weight = (
             batch[name].to(DEVICE) for name in ("choice", "reward", "discount", "weight")
         )
-        before, after = to_device(batch["before"]), to_device(batch["after"])
+        before, after = batch["before"], batch["after"]
         with torch.inference_mode(), mixed_precision(self.uses_bf16):
             best = self.network(after).argmax(1, keepdim=True)  # double Q-learning
             next_value = self.target(after).float().gather(1, best).squeeze(1)

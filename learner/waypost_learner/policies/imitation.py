@@ -90,7 +90,7 @@ class Policy:
     @torch.inference_mode()
     def __call__(self, observations: Observation) -> Outputs:
         """Return the outputs for a batch float32 or uint8[B, observation shape]."""
-        out = self.acting(as_input(observations).to(DEVICE)).cpu()
+        out = self.acting(as_input(observations)).cpu()
         termination = torch.sigmoid(out[:, -1]) if self.terminates else torch.zeros(len(out))
         return Outputs(out[:, : self.n_choices].numpy(), termination.numpy())
 

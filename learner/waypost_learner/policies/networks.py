@@ -8,6 +8,7 @@ from torch import nn
 from torch.nn import functional
 
 from waypost.domains import Grid
+from waypost_learner.policies.device import draw_weights
 
 
 @dataclass(frozen=True)
@@ -213,6 +214,4 @@ def _initialize(layers: list[nn.Module], rng: torch.Generator) -> None:
     """Draw initial weights with Glorot's method, the default of the authors' framework, and set biases to 0."""
     for layer in layers:
         if isinstance(layer, nn.Conv2d | nn.Linear):
-            assert layer.bias is not None
-            nn.init.xavier_uniform_(layer.weight, generator=rng)
-            nn.init.zeros_(layer.bias)
+            draw_weights(layer, rng)

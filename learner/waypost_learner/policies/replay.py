@@ -9,7 +9,7 @@ import torch
 from numpy.typing import NDArray
 
 from waypost.trajectory import Observation
-from waypost_learner.policies.device import as_input
+from waypost_learner.policies.device import DEVICE, as_input, to_device
 from waypost_learner.rollout.experience import Experience, Transition
 
 Tensors = dict[str, torch.Tensor]
@@ -102,8 +102,8 @@ class Replay:
     def sample(self, size: int, rng: torch.Generator) -> tuple[torch.Tensor, Tensors]:
         """Draw rows in proportion to their priorities; return their indices int64[size] and their columns.
 
-        `before` and `after` are float32[size, observation shape]. The column `weight` float32[size] holds
-        importance-sampling weights for beta = 1, scaled to a maximum of 1.
+        `before` and `after` are float32[size, observation shape], on the device. The column `weight` float32[size]
+        holds importance-sampling weights for beta = 1, scaled to a maximum of 1.
         """
         rows = self._draw(size, rng)
         found = {name: torch.from_numpy(column[rows]) for name, column in self._columns.items()}
@@ -127,15 +127,15 @@ class Replay:
         return np.asarray(block * BLOCK + (ends_inside > drawn[:, None]).argmax(1))
 
     def _observations(self, planes: NDArray[Any]) -> torch.Tensor:
-        """Return the observations with these planes object[n, channels] as float32[n, observation shape].
+        """Return the observations with these planes object[n, channels] on the device, float32[n, observation shape].
 
         Pictures get the memory layout of `to_device`. To rearrange their bytes, before they become floats, is far
-        faster.
+        faster on a CPU.
         """
-        joined = np.frombuffer(b"".join(planes.ravel().tolist()), self._dtype)
+        joined = np.frombuffer(bytearray().join(planes.ravel().tolist()), self._dtype)
         stacks = joined.reshape(len(planes), *self._shape)
-        if stacks.ndim != 4:
-            return as_input(stacks.copy())  # the joined bytes are read-only
+        if stacks.ndim != 4 or DEVICE.type == "cuda":
+            return to_device(as_input(stacks))
         interleaved = np.empty((len(planes), *self._shape[1:], self._shape[0]), self._dtype)
         for channel in range(self._shape[0]):
             interleaved[..., channel] = stacks[:, channel]

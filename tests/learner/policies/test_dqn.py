@@ -58,6 +58,20 @@ def test_the_same_seed_learns_the_same_bit_by_bit() -> None:
     assert all(torch.equal(a, b) for a, b in zip(same, other, strict=True))
 
 
+def test_the_same_seed_learns_the_same_from_pictures_too() -> None:
+    pictures = np.random.default_rng(0).integers(0, 256, (6, 2, 42, 42), np.uint8)
+    transitions = tuple(Transition(i, i % 2, float(i == 4), i + 1, int(i < 4)) for i in range(5))
+
+    def weights() -> list[torch.Tensor]:
+        q = QFunction((2, 42, 42), 2, NETWORK, replace(SPEC, margin=0.1), seed=3)
+        q.replay.add(Experience(tuple(pictures), transitions, demonstrated=frozenset({1})))
+        for _ in range(40):
+            q.step()
+        return [each.detach() for each in q.network.parameters()]
+
+    assert all(torch.equal(a, b) for a, b in zip(weights(), weights(), strict=True))
+
+
 def test_the_best_choice_is_chosen_by_one_network_and_valued_by_the_other() -> None:
     spec = DqnSpec(learning_rate=0.0, batch=64, update_every=1, least=1, target_every=10**9, alpha=1.0, bf16=False)
     q = QFunction((5,), 2, NETWORK, spec, 0)

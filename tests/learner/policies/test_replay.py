@@ -67,8 +67,8 @@ def test_stacked_pictures_come_back_as_they_were_and_each_is_stored_once(
         for before, after, reward in zip(found["before"], found["after"], found["reward"], strict=True):
             same = [one for one in wanted if one[2] == reward]
             assert any(
-                np.array_equal(before.numpy(), b / np.float32(255))
-                and np.array_equal(after.numpy(), a / np.float32(255))
+                np.array_equal(before.cpu().numpy(), b / np.float32(255))
+                and np.array_equal(after.cpu().numpy(), a / np.float32(255))
                 for b, a, _ in same
             )
     # One new picture for each state, and the pictures around the first and the last state of each walk.

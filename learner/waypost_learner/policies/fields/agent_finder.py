@@ -6,6 +6,8 @@ import torch
 from torch import nn
 from torch.nn import functional
 
+from waypost_learner.policies.device import draw_weights
+
 _FEATURES = 16
 _UPDATES, _BATCH, _LEARNING_RATE = 200, 64, 3e-2
 # The weight of the attention's entropy at the end: attention to a whole trail would tell the action too. At the start
@@ -72,8 +74,7 @@ class AgentFinder(nn.Module):
 
     def _fit_once(self, transitions: Transitions, rng: torch.Generator) -> None:
         for layer in (self.features, self.attention, self.action):
-            nn.init.xavier_uniform_(layer.weight, generator=rng)
-            nn.init.zeros_(layer.bias)  # type: ignore[arg-type]  # all three layers have biases
+            draw_weights(layer, rng)
         optimizer = torch.optim.Adam(self.parameters(), lr=_LEARNING_RATE)
         n = len(transitions[1])
         for update in range(_UPDATES):

@@ -11,6 +11,7 @@ import torch
 from torch import nn
 from torch.nn import functional
 
+from waypost_learner.policies.device import draw_weights
 from waypost_learner.policies.fields.agent_finder import AgentFinder, Transitions
 from waypost_learner.policies.fields.spreading import spread
 from waypost_learner.policies.fields.symmetry_finder import NO_SYMMETRY, TURNS
@@ -105,8 +106,7 @@ class FieldNet(nn.Module):
         )
         for layer in self.modules():
             if isinstance(layer, nn.Conv2d | nn.Linear):
-                nn.init.xavier_uniform_(layer.weight, generator=rng)
-                nn.init.zeros_(layer.bias)  # type: ignore[arg-type]  # all layers have biases
+                draw_weights(layer, rng)
         for same in (gate, self.source):  # at first, all pixels have the same gate and the same share of the attention
             nn.init.zeros_(same.weight)
         nn.init.constant_(gate.bias, _OPEN)  # type: ignore[arg-type]  # this layer has a bias

@@ -138,7 +138,7 @@ class SharedPolicy:
         """Return what each symmetric view of the pictures says, transformed back, [views, B, ...]."""
         n, symmetries = len(observations), self.symmetries
         seen = [observations, *(np.stack([each.observe(one) for one in observations]) for each in symmetries)]
-        out = self.acting(as_input(np.concatenate(seen)).to(DEVICE))
+        out = self.acting(as_input(np.concatenate(seen)))
         out["lo"] = _mixed(out["lo"], out["flat"].unsqueeze(1), _UNSEEN / (_UNSEEN + out["seen"].unsqueeze(2)))
         subgoals: list[slice | list[int]] = [slice(None), *(list(each.subgoals) for each in symmetries)]
         actions: list[slice | list[int]] = [slice(None), *(list(each.actions) for each in symmetries)]
