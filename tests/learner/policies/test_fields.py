@@ -13,6 +13,7 @@ from torch.nn import functional
 from waypost.trajectory import Segment
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.maze.maze import MOVES
+from waypost_learner.policies.device import as_input
 from waypost_learner.policies.fields import agent_finder
 from waypost_learner.policies.fields.agent_finder import AgentFinder
 from waypost_learner.policies.fields.field_net import FieldNet, FieldSpec
@@ -37,10 +38,11 @@ def test_it_finds_the_agent_from_demonstrated_actions(symmetries: bool) -> None:
     assert isinstance(network, FieldNet)
     pictures, cells = seen()
     on_target = pictures[range(len(cells)), 2, *cells.T] != 0  # the end of an episode; nobody acts there any more
-    np.testing.assert_array_equal(network.finder.find(torch.from_numpy(pictures))[~on_target], cells[~on_target])
+    found = network.finder.find(as_input(pictures)).cpu()
+    np.testing.assert_array_equal(found[~on_target], cells[~on_target])
     moved = np.zeros((4, 9))
     moved[range(4), [3 * row + column + 4 for row, column in MOVES]] = 1
-    np.testing.assert_allclose(network.displacements, moved, atol=0.05)
+    np.testing.assert_allclose(network.displacements.cpu(), moved, atol=0.05)
 
 
 def test_an_action_that_nobody_showed_may_move_the_agent_anywhere() -> None:
@@ -98,7 +100,7 @@ def test_ends_of_subgoals_are_looked_for_as_far_away_as_subgoals_ended_so_far() 
     assert network.reach == max(moved(one) for instance in TRAIN[:3] for one in demonstrated(instance))
     for segment in demonstrated(TRAIN[500]):
         network.look_as_far_as(
-            *(torch.from_numpy(one.observation[None]) for one in (segment.start, segment.states[-1]))
+            *(as_input(one.observation[None]) for one in (segment.start, segment.states[-1]))
         )
         assert network.reach == moved(segment)
     told = taught(briefly(1, fields=FieldSpec(reach=2)), 3)
