@@ -11,7 +11,7 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 
 from waypost_server.answers import routes as answers
 from waypost_server.answers.review import routes as review
-from waypost_server.auth import refusals
+from waypost_server.auth import oidc, refusals
 from waypost_server.auth.access import ACCESS
 from waypost_server.auth.attempts import LoginAttempts
 from waypost_server.auth.lookup import CredentialCache
@@ -36,6 +36,7 @@ from waypost_server.runs import routes as runs
 from waypost_server.settings import Settings
 from waypost_server.users import routes as users
 from waypost_server.users import session_routes as sessions
+from waypost_server.users import sign_in_routes as sign_in
 from waypost_server.watch import audit_routes as audit
 from waypost_server.watch import event_routes as event_streams
 from waypost_server.watch import routes as watch
@@ -49,14 +50,18 @@ GZIP_BYTES = 8_192  # smaller responses are not compressed
 # Routes are tried in this order, so those that are called most come first.
 ROUTED = (
     *(answers, leases, queries, runs, play, watch, event_streams),
-    *(frames, users, sessions, gold, review, practice, webhooks, audit),
+    *(frames, users, sessions, sign_in, gold, review, practice, webhooks, audit),
 )
 
 log = logging.getLogger("waypost")
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
-    """Return the app. On start it opens the store, which must have this version's schema or be empty."""
+    """Return the app. On start it opens the store, which must have this version's schema or be empty.
+
+    Raises:
+        BadProvider: the settings of the OpenID provider cannot be used.
+    """
     chosen, traffic = settings or Settings(), Traffic()
     app = FastAPI(
         title="Waypost",
@@ -68,6 +73,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         webhooks=webhooks.sent,
         lifespan=lambda app: _lifespan(app, chosen, traffic),
     )
+    app.state.provider = oidc.open_provider(chosen)
     for module in ROUTED:
         app.include_router(module.router, prefix=API)
     app.include_router(system.router)

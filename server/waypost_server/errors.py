@@ -4,7 +4,11 @@ Refusal
 ├── Unauthenticated        401  no valid token or session
 │   ├── LoginUsed               the login link was used before
 │   ├── LoginExpired            the login link has expired
-│   └── Deactivated             the account is deactivated
+│   ├── Deactivated             the account is deactivated
+│   ├── SignInStale             the provider's reply belongs to no sign-in of this browser
+│   ├── SignInFailed            the provider refused, or its reply is not valid
+│   ├── NoAccount               the provider's person is no user of this server
+│   └── NoRole                  none of the person's roles is one of this server's
 ├── BudgetExhausted        402  the run's budget has too few units left for the query
 ├── Forbidden              403  the role may not do this, or not to this object
 │   ├── NotYours           403  another annotator's assignment
@@ -30,6 +34,7 @@ Refusal
 │   ├── NotFinished             only a finished run can be deleted
 │   ├── BudgetTooLow            a budget below the units spent and reserved
 │   ├── NameTaken               a user with this name exists
+│   ├── IdentityTaken           the provider's person is a user already
 │   ├── RunExists               the store has the run that is being imported
 │   ├── NotActive               a deactivated user gets no login links or tokens
 │   ├── StillActive             the data of an active user cannot be deleted
@@ -43,6 +48,7 @@ Refusal
 ├── TooManyQueries         429  the run, or the runs of its owner together, have too many open queries
 ├── TooManyAttempts        429  too many wrong login codes
 ├── TooManyMessages        429  too many messages on a play socket
+├── ProviderFailed         502  the OpenID provider cannot be reached, or fails
 ├── Stopping               503  the server is about to stop; another one may be ready
 └── StorageFailed          503  the database failed and nothing was stored; try again
     └── StoreBusy               too many requests wait to store something
@@ -90,6 +96,34 @@ class Deactivated(Unauthenticated):
     """The account of the login link is deactivated."""
 
     name, title = "deactivated", "The account is deactivated"
+
+
+class SignInStale(Unauthenticated):
+    """The provider's reply belongs to no sign-in that this browser began in the last ten minutes."""
+
+    name, title = "sign-in-stale", "Begin the sign-in again"
+
+
+class SignInFailed(Unauthenticated):
+    """The provider did not sign the person in, or its reply is not valid. `fault` says why, for the operator."""
+
+    name, title = "sign-in-failed", "The sign-in failed"
+
+    def __init__(self, fault: str) -> None:
+        super().__init__(f"The sign-in failed: {fault}. Try again; if it fails again, tell an administrator.")
+        self.fault = fault
+
+
+class NoAccount(Unauthenticated):
+    """The person signed in at the provider, but is no user of this server."""
+
+    name, title = "no-account", "No account on this server"
+
+
+class NoRole(Unauthenticated):
+    """The person signed in at the provider, but none of their roles there gives a role here."""
+
+    name, title = "no-role", "No role on this server"
 
 
 class BudgetExhausted(Refusal):
@@ -242,6 +276,12 @@ class NameTaken(Conflict):
     name, title = "name-taken", "The name is taken"
 
 
+class IdentityTaken(Conflict):
+    """A user is this person of the OpenID provider already."""
+
+    name, title = "identity-taken", "The person is a user already"
+
+
 class RunExists(Conflict):
     """The store already has the run: it was made here, or imported before."""
 
@@ -322,6 +362,12 @@ class TooManyMessages(Refusal):
     """Too many messages came on a play socket."""
 
     status, name, title = 429, "too-many-messages", "Too many messages"
+
+
+class ProviderFailed(Refusal):
+    """The OpenID provider cannot be reached, or does not reply as one. Try again later."""
+
+    status, name, title = 502, "provider-failed", "The provider of sign-ins failed"
 
 
 class Stopping(Refusal):

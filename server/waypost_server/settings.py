@@ -4,8 +4,12 @@ from ipaddress import IPv4Network, IPv6Network
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field, field_validator
+from pydantic import AnyHttpUrl, Field, SecretStr, TypeAdapter, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
+
+from waypost.wire import Role
+
+LOOPBACK = ("localhost", "127.0.0.1", "[::1]")
 
 
 class Settings(BaseSettings):
@@ -88,6 +92,28 @@ class Settings(BaseSettings):
     webhook_off_seconds: float = Field(
         default=5 * 86_400.0, gt=0, description="How long a webhook may fail before it is turned off."
     )
+    oidc_issuer: str | None = Field(
+        default=None, description="The address of the OpenID provider at which people may sign in, as it names itself."
+    )
+    oidc_client_id: str = Field(default="waypost", description="The id with which the provider knows this server.")
+    oidc_client_secret: SecretStr | None = Field(
+        default=None, description="The secret that the provider gave this server; none for a public client."
+    )
+    oidc_client_secret_file: Path | None = Field(default=None, description="A file with this secret, instead of it.")
+    oidc_name: str = Field(
+        default="single sign-on", min_length=1, max_length=100, description="What the login page calls the provider."
+    )
+    oidc_scope: str = Field(
+        default="openid profile", pattern=r"\bopenid\b", description="The scopes that the provider is asked for."
+    )
+    oidc_role_claim: str = Field(
+        default="roles", description="The claim of the ID token with a person's roles; a.b for claim b in claim a."
+    )
+    oidc_roles: Annotated[tuple[tuple[Annotated[str, Field(min_length=1)], Role], ...], NoDecode] = Field(
+        default=(),
+        description="VALUE=ROLE, comma-separated: the first VALUE in the claim gives the ROLE, and * fits everybody.",
+    )
+    oidc_create: bool = Field(default=True, description="Whether somebody unknown who signs in becomes a user.")
     practice: Path | None = Field(
         default=None, description="A file that `waypost practice` wrote; the default has queries about mazes."
     )
@@ -99,3 +125,20 @@ class Settings(BaseSettings):
     @classmethod
     def _split(cls, value: object) -> object:
         return tuple(name.strip() for name in value.split(",") if name.strip()) if isinstance(value, str) else value
+
+    @field_validator("oidc_issuer")
+    @classmethod
+    def _is_secure(cls, issuer: str | None) -> str | None:
+        if issuer is not None:
+            url = TypeAdapter(AnyHttpUrl).validate_python(issuer)
+            if url.scheme != "https" and url.host not in LOOPBACK:
+                raise ValueError("must begin with https://, except on this machine")
+        return issuer
+
+    @field_validator("oidc_roles", mode="before")
+    @classmethod
+    def _pairs(cls, value: object) -> object:
+        if not isinstance(value, str):
+            return value
+        pairs = [one.rpartition("=") for one in value.split(",") if one.strip()]
+        return tuple((claimed.strip(), role.strip()) for claimed, _, role in pairs)

@@ -18,6 +18,7 @@ AuditAction = Literal[
     "token.created",
     "token.revoked",
     "user.created",
+    "user.identified",
     "user.role_changed",
     "user.deactivated",
     "user.reactivated",

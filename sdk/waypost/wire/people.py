@@ -15,6 +15,9 @@ __all__ = [
     "NumbersOfKind",
     "Session",
     "SessionList",
+    "SignInBegun",
+    "SignInOffer",
+    "SignInReply",
     "Tally",
     "Token",
     "TokenCreate",
@@ -31,6 +34,31 @@ class Login(Message):
     """The one-time code of a login link, sent by a browser."""
 
     code: str = Field(min_length=1, max_length=200)
+
+
+class SignInOffer(Message):
+    """The OpenID provider at which people may sign in, sent by the server."""
+
+    provider: str | None = Field(description="What the provider is called; null if there is none.")
+
+
+class SignInBegun(Message):
+    """A sign-in that has begun, sent by the server."""
+
+    url: str = Field(description="The address at the OpenID provider that the browser opens next.")
+
+
+class SignInReply(Message):
+    """The reply with which the OpenID provider sent a browser back, sent by that browser."""
+
+    state: str = Field(min_length=1, max_length=200, description="The `state` of the address.")
+    code: str | None = Field(
+        default=None,
+        min_length=1,
+        max_length=4_000,
+        description="The `code` of the address; null if the provider sent an error instead.",
+    )
+    issuer: str | None = Field(default=None, max_length=2_000, description="The `iss` of the address, if it has one.")
 
 
 class Me(Message):

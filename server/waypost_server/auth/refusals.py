@@ -180,6 +180,10 @@ def _refused(connection: HTTPConnection, operation: str, status: int, reason: st
     rejected: Rejected | None = getattr(connection.state, "rejected", None)
     caller: Any = getattr(connection.state, "caller", None)
     stranger = nobody(address_of(connection))
+    sign_in: Details | None = getattr(connection.state, "sign_in", None)
+    if status == errors.Unauthenticated.status and sign_in is not None:
+        tried = {"operation": operation, "by": "provider", "reason": reason, **sign_in}
+        return Refused(stranger, "login.refused", operation, lambda _: Entry(stranger, "login.refused", None, tried))
     if status == errors.Unauthenticated.status and rejected is not None:
         return Refused(stranger, "login.refused", operation, lambda tx: _login(tx, stranger, operation, *rejected))
     if status != errors.Forbidden.status:

@@ -11,6 +11,7 @@ from waypost import wire
 from waypost_server import serving
 from waypost_server.app import create_app
 from waypost_server.auth import sessions
+from waypost_server.auth.oidc import BadProvider
 from waypost_server.cli.shared import DEFAULT_DATABASE, DatabaseOption, NoBackupOption, refuse
 from waypost_server.db import backup, migration
 from waypost_server.db.engine import BadDatabase, Database
@@ -93,5 +94,5 @@ def serve(
     except ValidationError as error:
         first = error.errors()[0]
         refuse(f"The setting {'.'.join(map(str, first['loc']))} is not valid: {first['msg']}.")
-    except (serving.CannotServe, BadDatabase, NewerStore, BadPractice, backup.CannotBackUp) as error:
+    except (serving.CannotServe, BadDatabase, NewerStore, BadPractice, BadProvider, backup.CannotBackUp) as error:
         refuse(str(error))

@@ -78,6 +78,16 @@ credentials = Table(
     sqlite_autoincrement=True,
 )
 
+# Who a user is at an OpenID provider: the SHA-256 of issuer and subject. Rows of erased users stay and keep them out.
+identities = Table(
+    "identities",
+    metadata,
+    Column("hash", Text, primary_key=True),
+    Column("user_id", RowId, ForeignKey("users.id"), nullable=False, index=True),
+    Column("created_at", Float, nullable=False),
+    CheckConstraint("length(hash) = 64", name="hash"),
+)
+
 runs = Table(
     "runs",
     metadata,

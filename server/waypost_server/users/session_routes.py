@@ -16,7 +16,7 @@ from waypost_server.users import performance
 router = APIRouter(tags=["people"], route_class=JsonRoute)
 
 
-def _set_cookie(context: Context, request: Request, response: Response, secret: str) -> None:
+def set_cookie(context: Context, request: Request, response: Response, secret: str) -> None:
     """Set the session cookie. The browser keeps it for as long as the session lasts."""
     response.set_cookie(
         cookie_of(request),
@@ -57,7 +57,7 @@ async def login(body: wire.Login, request: Request, response: Response, context:
         attempts.failed(address)
         request.state.rejected = ("login", code)
         raise await context.db.read(lambda tx: sessions.why_refused(tx, body.code))
-    _set_cookie(context, request, response, session.secret)
+    set_cookie(context, request, response, session.secret)
     return await context.db.read(lambda tx: performance.me(tx, session.user))
 
 
@@ -77,7 +77,7 @@ async def me(request: Request, response: Response, context: Ctx, caller: Allowed
     if caller.by_cookie and await context.db.write(
         lambda tx: sessions.renew_session(tx, caller.credential, seconds, most)
     ):
-        _set_cookie(context, request, response, request.cookies[cookie_of(request)])
+        set_cookie(context, request, response, request.cookies[cookie_of(request)])
     return await context.db.read(lambda tx: performance.me(tx, caller.user))
 
 

@@ -24,7 +24,7 @@ HOOK = "https://hooks.example.org/waypost"
 EPISODE = {"episode": 0, "warm_start": False, "train_success": True, "test_success": True, "train_steps": 1}
 RESULT = EPISODE | {"test_steps": 1, "hi_labels": 0, "lo_labels": 0, "seconds": 0.5}
 
-OPEN = {"healthz", "readyz", "login"}
+OPEN = {"healthz", "readyz", "login", "getSignIn", "beginSignIn", "endSignIn"}
 # `owner` is the learner whose run it is, and `learner` another one; `holder` is the annotator who leased the query.
 EVERYBODY = {"admin", "owner", "learner", "holder", "annotator", "viewer"}
 WATCHERS = {"admin", "owner", "learner", "viewer"}  # an annotator could tell gold queries from others by single queries
