@@ -8,8 +8,9 @@ from packaging.requirements import Requirement
 from tests.repository.kit import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
-BASE = PROJECT["project"]["dependencies"]
-LEARNER = PROJECT["project"]["optional-dependencies"]["learner"]
+EXTRAS = PROJECT["project"]["optional-dependencies"]
+BASE = PROJECT["project"]["dependencies"] + EXTRAS["oidc"]
+LEARNER = EXTRAS["learner"]
 FILES = ("build", "server", "learner", "torch")
 IMAGES = (ROOT / "Dockerfile").read_text().replace("\\\n", " ")
 

@@ -12,7 +12,7 @@ from waypost_server.auth import tokens
 from waypost_server.cli.serve import login_url
 from waypost_server.cli.shared import DEFAULT_DATABASE, DatabaseOption, DryRunOption, JsonOption, opened, refuse
 from waypost_server.settings import Settings
-from waypost_server.users import erasure
+from waypost_server.users import erasure, sign_in
 from waypost_server.users import service as users
 
 app = typer.Typer()
@@ -96,6 +96,22 @@ def erase_user(
         f"comments and {done.reasons} reasons of user {user}. Without a name stay {done.kept_answers} answers "
         f"({done.kept_units:g} units)."
     )
+
+
+@user_app.command("identify")
+def identify_user(
+    name: str,
+    subject: str,
+    issuer: Annotated[str | None, typer.Option(help="The provider; the default is WAYPOST_OIDC_ISSUER.")] = None,
+    database: DatabaseOption = DEFAULT_DATABASE,
+) -> None:
+    """Let somebody of the OpenID provider sign in as an existing user. SUBJECT is the person's id there."""
+    provider = issuer or Settings().oidc_issuer
+    if provider is None:
+        refuse("Which provider? Set WAYPOST_OIDC_ISSUER, as for the server, or give --issuer.")
+    with opened(database) as db:
+        user = db.read_now(lambda tx: users.find_by_name(tx, name))
+        db.write_now(lambda tx: sign_in.identify(tx, user.id, provider, subject))
 
 
 def _change(database: str, name: str, wanted: wire.UserPatch) -> None:

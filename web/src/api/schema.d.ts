@@ -1011,6 +1011,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sign-in": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Sign In
+         * @description Return at which OpenID provider people may sign in, if there is one. Login links always work.
+         */
+        get: operations["getSignIn"];
+        put?: never;
+        /**
+         * Begin Sign In
+         * @description Begin a sign-in: return the provider's address, and a cookie that lets this browser end the sign-in.
+         */
+        post: operations["beginSignIn"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sign-in/reply": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * End Sign In
+         * @description Exchange the provider's reply for a session cookie. The user gets the role that the provider says.
+         */
+        post: operations["endSignIn"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{run}/gold": {
         parameters: {
             query?: never;
@@ -2428,7 +2472,7 @@ export interface components {
              * Action
              * @enum {string}
              */
-            action: "login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "run.deleted" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated" | "user.erased";
+            action: "login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "run.deleted" | "token.created" | "token.revoked" | "user.created" | "user.identified" | "user.role_changed" | "user.deactivated" | "user.reactivated" | "user.erased";
             /**
              * Object
              * @description The user, token or run that it is about: `user/7`; null if there is none.
@@ -5074,6 +5118,49 @@ export interface components {
         SessionList: {
             /** Sessions */
             sessions: components["schemas"]["Session"][];
+        };
+        /**
+         * SignInBegun
+         * @description A sign-in that has begun, sent by the server.
+         */
+        SignInBegun: {
+            /**
+             * Url
+             * @description The address at the OpenID provider that the browser opens next.
+             */
+            url: string;
+        };
+        /**
+         * SignInOffer
+         * @description The OpenID provider at which people may sign in, sent by the server.
+         */
+        SignInOffer: {
+            /**
+             * Provider
+             * @description What the provider is called; null if there is none.
+             */
+            provider: string | null;
+        };
+        /**
+         * SignInReply
+         * @description The reply with which the OpenID provider sent a browser back, sent by that browser.
+         */
+        SignInReply: {
+            /**
+             * State
+             * @description The `state` of the address.
+             */
+            state: string;
+            /**
+             * Code
+             * @description The `code` of the address; null if the provider sent an error instead.
+             */
+            code?: string | null;
+            /**
+             * Issuer
+             * @description The `iss` of the address, if it has one.
+             */
+            issuer?: string | null;
         };
         /**
          * Tally
@@ -9583,6 +9670,205 @@ export interface operations {
             };
         };
     };
+    getSignIn: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SignInOffer"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    beginSignIn: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SignInBegun"];
+                };
+            };
+            /** @description Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The provider of sign-ins failed */
+            502: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    endSignIn: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SignInReply"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Me"];
+                };
+            };
+            /** @description Begin the sign-in again; The sign-in failed; No account on this server; No role on this server; The account is deactivated */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The provider of sign-ins failed */
+            502: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     listGold: {
         parameters: {
             query?: never;
@@ -10939,7 +11225,7 @@ export interface operations {
         parameters: {
             query?: {
                 actor?: string | null;
-                action?: ("login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "run.deleted" | "token.created" | "token.revoked" | "user.created" | "user.role_changed" | "user.deactivated" | "user.reactivated" | "user.erased") | null;
+                action?: ("login" | "login.refused" | "logout" | "link.created" | "permission.refused" | "run.deleted" | "token.created" | "token.revoked" | "user.created" | "user.identified" | "user.role_changed" | "user.deactivated" | "user.reactivated" | "user.erased") | null;
                 /** @description From this time on, in seconds since the epoch. */
                 since?: number | null;
                 /** @description Before this time, in seconds since the epoch. */

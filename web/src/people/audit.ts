@@ -14,6 +14,7 @@ export function namesOfActions(): Readonly<Record<AuditAction, string>> {
     'token.created': t('created a token'),
     'token.revoked': t('revoked a token'),
     'user.created': t('created a user'),
+    'user.identified': t('connected a user with the sign-in'),
     'user.role_changed': t('changed a role'),
     'user.deactivated': t('deactivated a user'),
     'user.reactivated': t('reactivated a user'),
