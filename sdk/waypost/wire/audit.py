@@ -31,9 +31,10 @@ class AuditRow(Message):
 
     number: int = Field(description="1 for the first row, then one more for each row.")
     at: str = Field(description="When it happened, in UTC: 2026-01-31T12:00:00.000000Z.")
-    user: int | None = Field(description="The id of the user who acted; null for `nobody` and `command line`.")
+    user: int | None = Field(description="The id of the user who acted; null for all other actors.")
     actor: str = Field(
-        description="The name of the user who acted; `nobody` without a valid credential; `command line` for a command."
+        description="The name of the user who acted; `nobody` without a valid credential; `command line` for a command; "
+        "`identity provider` for what a sign-in there changes."
     )
     address: str | None = Field(description="The address of the client as the server saw it; null for a command.")
     action: AuditAction

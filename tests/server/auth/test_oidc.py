@@ -13,8 +13,10 @@ from joserfc.jwk import OctKey
 from sqlalchemy import select
 from tests.server.auth.provider import CLIENT, SECRET, FakeProvider, new_key, provider
 from tests.server.kit import API, Json, Service, in_process, query, together
+from typer.testing import CliRunner
 
 from waypost_server.app import create_app
+from waypost_server.cli.main import app as commands
 from waypost_server.auth import oidc
 from waypost_server.db.tables import identities
 from waypost_server.settings import Settings
@@ -435,3 +437,19 @@ def test_a_missing_library_stops_the_start(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setitem(__import__("sys").modules, "authlib.integrations.starlette_client", None)
     with pytest.raises(oidc.BadProvider, match=r"pip install 'waypost\[oidc\]'"):
         create_app(Settings(oidc_issuer="https://sso.example.org"))
+
+
+def test_the_command_line_connects_an_existing_user(
+    sqlite_url: str, serve: Callable[..., Service], fake: FakeProvider, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    service = serve(oidc_create=False)
+    monkeypatch.delenv("WAYPOST_OIDC_ISSUER", raising=False)
+    identify = ["user", "identify", "abe", "u-1", "--database", sqlite_url]
+    nowhere = CliRunner().invoke(commands, identify)
+    assert (nowhere.exit_code, "--issuer" in nowhere.output) == (2, True)
+    monkeypatch.setenv("WAYPOST_OIDC_ISSUER", fake.issuer)
+    assert CliRunner().invoke(commands, identify).exit_code == 0
+    assert signed(service)["name"] == "abe"
+    assert any(row["action"] == "user.identified" and row["actor"] == "command line" for row in log_of(service))
+    again = CliRunner().invoke(commands, ["user", "identify", "vic", "u-1", "--database", sqlite_url])
+    assert (again.exit_code, "is a user already" in again.output) == (2, True)

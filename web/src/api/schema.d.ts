@@ -2455,12 +2455,12 @@ export interface components {
             at: string;
             /**
              * User
-             * @description The id of the user who acted; null for `nobody` and `command line`.
+             * @description The id of the user who acted; null for all other actors.
              */
             user: number | null;
             /**
              * Actor
-             * @description The name of the user who acted; `nobody` without a valid credential; `command line` for a command.
+             * @description The name of the user who acted; `nobody` without a valid credential; `command line` for a command; `identity provider` for what a sign-in there changes.
              */
             actor: string;
             /**
