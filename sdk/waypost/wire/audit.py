@@ -33,8 +33,8 @@ class AuditRow(Message):
     at: str = Field(description="When it happened, in UTC: 2026-01-31T12:00:00.000000Z.")
     user: int | None = Field(description="The id of the user who acted; null for all other actors.")
     actor: str = Field(
-        description="The name of the user who acted; `nobody` without a valid credential; `command line` for a command; "
-        "`identity provider` for what a sign-in there changes."
+        description="The name of the user who acted; `nobody` without a valid credential; `command line` "
+        "for a command; `identity provider` for what a sign-in there changes."
     )
     address: str | None = Field(description="The address of the client as the server saw it; null for a command.")
     action: AuditAction

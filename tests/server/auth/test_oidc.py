@@ -16,8 +16,8 @@ from tests.server.kit import API, Json, Service, in_process, query, together
 from typer.testing import CliRunner
 
 from waypost_server.app import create_app
-from waypost_server.cli.main import app as commands
 from waypost_server.auth import oidc
+from waypost_server.cli.main import app as commands
 from waypost_server.db.tables import identities
 from waypost_server.settings import Settings
 from waypost_server.users import service as users
