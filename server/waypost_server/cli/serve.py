@@ -12,6 +12,7 @@ from waypost_server import serving
 from waypost_server.app import create_app
 from waypost_server.auth import sessions
 from waypost_server.auth.oidc import BadProvider
+from waypost_server.cli import processes
 from waypost_server.cli.shared import DEFAULT_DATABASE, DatabaseOption, NoBackupOption, refuse
 from waypost_server.db import backup, migration
 from waypost_server.db.engine import BadDatabase, Database
@@ -37,7 +38,9 @@ def login_url(
     return f"{base.rstrip('/')}/login{search}#{link.code}"
 
 
-def serve_app(settings: Settings, host: str, port: int, *, login_link: bool, with_backup: bool = True) -> None:
+def serve_app(
+    settings: Settings, host: str, port: int, *, login_link: bool, with_backup: bool = True, n_processes: int = 1
+) -> None:
     """Migrate the store after a backup, and serve it until told to stop.
 
     Print a login link for an administrator if `login_link` is true or if none has ever logged in.
@@ -45,11 +48,14 @@ def serve_app(settings: Settings, host: str, port: int, *, login_link: bool, wit
     Raises:
         CannotServe, BadDatabase, NewerStore, CannotBackUp: with one sentence for the user.
     """
+    processes.check(settings, n_processes)
     with closing(serving.bind(host, port)) as bound:
-        _serve(settings, host, bound, login_link, with_backup)
+        _serve(settings, host, bound, login_link, with_backup, n_processes)
 
 
-def _serve(settings: Settings, host: str, bound: socket.socket, login_link: bool, with_backup: bool) -> None:
+def _serve(
+    settings: Settings, host: str, bound: socket.socket, login_link: bool, with_backup: bool, n_processes: int
+) -> None:
     named = () if host in {"0.0.0.0", "::"} else (host,)  # noqa: S104 - compared, not bound
     chosen = settings.model_copy(update={"hosts": (*settings.hosts, *named)})
     done = migration.migrate(chosen.database, with_backup=with_backup)
@@ -63,7 +69,10 @@ def _serve(settings: Settings, host: str, bound: socket.socket, login_link: bool
     if chosen.page is None and spa.find() is None:
         typer.echo("The web app is not built; `make web` builds it.")
     logs.install(chosen.log_format, with_requests=chosen.log_requests)
-    serving.foreground(app, bound, chosen.drain_seconds)
+    if n_processes > 1:
+        processes.serve(chosen, bound, n_processes)
+    else:
+        serving.foreground(app, bound, chosen.drain_seconds)
 
 
 def _welcome(db: Database, base: str, seconds: float, login_link: bool) -> str:
@@ -85,12 +94,15 @@ def serve(
         bool, typer.Option("--login-link", help="Print a login link even if an administrator has logged in before.")
     ] = False,
     no_backup: NoBackupOption = False,
+    n_processes: Annotated[
+        int, typer.Option("--processes", min=1, max=64, help="How many processes serve; several need PostgreSQL.")
+    ] = 1,
 ) -> None:
     """Serve the API and the web app. Until an administrator has logged in, print a one-time login link."""
     given = {"database": database} | ({} if lease is None else {"lease_seconds": lease})
     try:
         settings = Settings.model_validate(Settings().model_dump() | given)
-        serve_app(settings, host, port, login_link=login_link, with_backup=not no_backup)
+        serve_app(settings, host, port, login_link=login_link, with_backup=not no_backup, n_processes=n_processes)
     except ValidationError as error:
         first = error.errors()[0]
         refuse(f"The setting {'.'.join(map(str, first['loc']))} is not valid: {first['msg']}.")
