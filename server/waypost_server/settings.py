@@ -113,7 +113,7 @@ class Settings(BaseSettings):
         default=(),
         description="VALUE=ROLE, comma-separated: the first VALUE in the claim gives the ROLE, and * fits everybody.",
     )
-    oidc_create: bool = Field(default=True, description="Whether somebody unknown who signs in becomes a user.")
+    oidc_create: bool = Field(default=False, description="Whether somebody unknown who signs in becomes a user.")
     practice: Path | None = Field(
         default=None, description="A file that `waypost practice` wrote; the default has queries about mazes."
     )

@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -120,6 +122,23 @@ def test_a_process_that_is_killed_is_replaced(server: Served) -> None:
     finally:
         os.kill(left, signal.SIGCONT)
     assert is_alive(new)
+
+
+def test_ctrl_c_in_a_terminal_reaches_the_first_process_alone(server: Served) -> None:
+    """It passes the signal on. A process that gets it twice does not wait for open requests."""
+    first = os.getpgid(server.process.pid)
+    assert all(os.getpgid(one) != first for one in workers(server.process.pid))
+
+
+def test_a_process_that_cannot_start_ends_all(url: str, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "waypost_server.cli", "serve", "--port", "0", "--database", url]
+    environment = {**os.environ, "WAYPOST_PRACTICE": str(tmp_path / "missing.json")}
+    done = subprocess.run(
+        [*command, "--processes", "2"], env=environment, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.returncode == 2
+    assert done.stderr.endswith("A server process did not start; see its log.\n")
+    assert "missing.json has no practice queries" in done.stderr
 
 
 def test_no_process_outlives_the_first(server: Served) -> None:

@@ -56,7 +56,7 @@ class Attempt:
             SignInStale: it is another one, or there is none.
         """
         parts = (value or "").split(".")
-        if len(parts) != 3 or not hmac.compare_digest(parts[0].encode(), state.encode()):
+        if len(parts) != 3 or not all(parts) or not hmac.compare_digest(parts[0].encode(), state.encode()):
             raise errors.SignInStale(
                 "This sign-in was not begun in this browser, or it took longer than ten minutes. Begin it again."
             )

@@ -29,6 +29,7 @@ def signing(built_page: Path, tmp_path: Path, fake: FakeProvider) -> Iterator[Se
         oidc_issuer=fake.issuer,
         oidc_client_secret=SECRET,
         oidc_name="Example SSO",
+        oidc_create=True,
         oidc_roles="watchers=viewer",
     )
     with serving.background(settings) as served:

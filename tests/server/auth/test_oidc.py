@@ -39,7 +39,8 @@ def serve(sqlite_url: str, fake: FakeProvider) -> Iterator[Callable[..., Service
     with_all = []
 
     def start(url: str = sqlite_url, **settings: Any) -> Service:
-        one = in_process(url, **{"oidc_issuer": fake.issuer, "oidc_client_secret": SECRET} | settings)
+        usual = {"oidc_issuer": fake.issuer, "oidc_client_secret": SECRET, "oidc_create": True}
+        one = in_process(url, **usual | settings)
         with_all.append(one)
         return one.__enter__()
 
@@ -208,8 +209,10 @@ def test_a_reply_belongs_to_the_browser_that_began(serve: Callable[..., Service]
     begin(service)
     refused(end(service, stolen), "sign-in-stale")
     service.client.cookies.clear()
-    service.client.cookies.set("waypost_sign_in", stolen["state"])
-    refused(end(service, stolen), "sign-in-stale")
+    for forged in ("", "..verifier", ".nonce.", ".."):  # without a nonce, none would be checked
+        service.client.cookies.set("waypost_sign_in", f"{stolen['state']}{forged}")
+        refused(end(service, stolen), "sign-in-stale")
+        service.client.cookies.clear()
     row = log_of(service)[-1]
     assert (row["action"], row["details"]["reason"]) == ("login.refused", "sign-in-stale")
 
