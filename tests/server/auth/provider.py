@@ -43,6 +43,7 @@ class FakeProvider:
     claims: Json = field(default_factory=lambda: {"sub": "u-1", "preferred_username": "zoe"})
     key: RSAKey = field(default_factory=new_key)
     signs_with: RSAKey | OctKey | None = None  # another key than the published one
+    kid: str | None = None  # the name of the key in tokens, if not that of the published one
     algorithm: str = "RS256"
     metadata: Json = field(default_factory=dict)  # overrides the description of the provider
     verifier: str | None = None  # checks the PKCE challenge against this one, as if another client had sent it
@@ -114,7 +115,7 @@ class FakeProvider:
         now = int(time.time())
         usual = {"iss": self.issuer, "aud": CLIENT, "iat": now, "exp": now + 300, "nonce": nonce}
         claims = {name: value for name, value in (usual | self.claims).items() if value is not None}
-        header = {"alg": self.algorithm, "kid": self.key.kid}
+        header = {"alg": self.algorithm, "kid": self.kid or self.key.kid}
         if self.algorithm == "none":
             return ".".join(_base64(json.dumps(part).encode()) for part in (header, claims)) + "."
         return jwt.encode(header, claims, self.signs_with or self.key, algorithms=[self.algorithm])

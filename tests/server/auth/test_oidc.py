@@ -260,15 +260,20 @@ def test_a_provider_that_is_down_is_a_failure_that_passes(
     assert nowhere.client.get(f"{API}/sign-in").json() == {"provider": "single sign-on"}
 
 
-def test_a_new_key_of_the_provider_is_accepted_and_a_withdrawn_one_is_not(
-    serve: Callable[..., Service], fake: FakeProvider, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_new_key_of_the_provider_is_accepted_at_once(serve: Callable[..., Service], fake: FakeProvider) -> None:
     service = serve()
     signed(service)
-    old, fake.key = fake.key, new_key()
+    fake.key = new_key()
     signed(service)
-    monkeypatch.setattr(oidc.time, "monotonic", lambda: time.monotonic_ns() / 1e9 + oidc.FRESH_SECONDS)
-    fake.signs_with = old
+
+
+def test_a_withdrawn_key_is_refused_as_soon_as_the_keys_are_read_again(
+    serve: Callable[..., Service], fake: FakeProvider, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(oidc, "FRESH_SECONDS", 0.0)
+    service = serve()
+    signed(service)
+    fake.signs_with, fake.kid, fake.key = fake.key, fake.key.kid, new_key()
     refused(sign(service), "sign-in-failed")
 
 
@@ -391,7 +396,7 @@ def test_the_store_holds_no_subject_in_clear_text(serve: Callable[..., Service],
 def test_somebody_unknown_stays_out_where_users_are_not_created(
     serve: Callable[..., Service], fake: FakeProvider
 ) -> None:
-    service = serve(oidc_create=False)
+    service = serve(oidc_create=Settings().oidc_create)
     before = names(service)
     refused(sign(service), "no-account")
     assert names(service) == before
