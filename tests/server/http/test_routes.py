@@ -10,7 +10,14 @@ from waypost import wire
 from waypost_server.app import create_app
 from waypost_server.settings import Settings
 
-OPEN = {("GET", "/healthz"), ("GET", "/readyz"), ("POST", "/api/v1/session")}
+OPEN = {
+    ("GET", "/healthz"),
+    ("GET", "/readyz"),
+    ("POST", "/api/v1/session"),
+    ("GET", "/api/v1/sign-in"),
+    ("POST", "/api/v1/sign-in"),
+    ("POST", "/api/v1/sign-in/reply"),
+}
 
 
 def document() -> dict[str, Any]:
