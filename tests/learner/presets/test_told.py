@@ -99,6 +99,13 @@ def test_a_run_that_is_told_nothing_learns_each_label_once_as_it_was_given(algor
     assert all(view.view.observe(observation) is observation for view in learner.views.values())
 
 
+def test_a_run_whose_policies_share_a_network_was_told_no_more_than_symmetries() -> None:
+    for level in ("symmetries", "centered", "crop", "structure"):
+        assert set_up(TrainConfig("hg-dagger", preset="general", told=level), threads=1).told == "symmetries"
+    assert set_up(TrainConfig("hg-dagger", preset="general", told="nothing"), threads=1).told == "nothing"
+    assert set_up(TrainConfig("hg-dagger", preset="lean", told="crop"), threads=1).told == "crop"
+
+
 class Secret:
     """A part of a domain that may be found, but not used."""
 

@@ -310,7 +310,7 @@ def ratios(comparison: Comparison) -> Iterator[Result]:
     numbers of episodes are not compared.
     """
     group = comparison.group
-    by_algorithm = {series.config.algorithm: series for series in reversed(comparison.runs)}  # the first of each
+    by_algorithm = {series.config.algorithm: series for series in reversed(list(comparison.runs))}  # the first of each
     for ratio in _RATIOS:
         if ratio.of not in by_algorithm or ratio.to not in by_algorithm:
             continue
