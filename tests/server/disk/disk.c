@@ -31,6 +31,7 @@ struct record { /* followed by the bytes of a write */
 struct fault {
     int32_t number; /* the errno of calls that fail; 0: none fails */
     int32_t calls;  /* the calls that can fail: WRITE, SYNC or both */
+    int32_t file;   /* the file whose calls can fail; 0: any */
     int32_t skip;   /* how many of them still succeed */
     int32_t times;  /* how many then fail; -1: all */
     int32_t failed; /* how many have failed */
@@ -82,8 +83,8 @@ static void note_fd(int call, int fd, int failed, int64_t offset, const void *by
     note(call, files[fd], failed, status.st_ino, offset, bytes, length);
 }
 
-static int fails(int call) {
-    if (!fault->number || !(fault->calls & call)) return 0;
+static int fails(int call, int file) {
+    if (!fault->number || !(fault->calls & call) || (fault->file && fault->file != file)) return 0;
     if (fault->skip > 0) return fault->skip--, 0;
     if (!fault->times) return 0;
     if (fault->times > 0) fault->times--;
@@ -131,7 +132,7 @@ int close(int fd) {
 ssize_t pwrite64(int fd, const void *bytes, size_t length, off64_t offset) {
     if (!file_of(fd)) return REAL(pwrite64)(fd, bytes, length, offset);
     pthread_mutex_lock(&lock);
-    int number = fails(WRITE);
+    int number = fails(WRITE, files[fd]);
     ssize_t done = REAL(pwrite64)(fd, bytes, number ? length / 2 : length, offset); /* a failed write leaves a half */
     if (done > 0) note_fd(WRITE, fd, !!number, offset, bytes, done);
     if (number) errno = number, done = -1;
@@ -148,7 +149,7 @@ ssize_t write(int fd, const void *bytes, size_t length) {
 
 static int sync_any(int fd) {
     pthread_mutex_lock(&lock);
-    int number = fails(SYNC);
+    int number = fails(SYNC, files[fd]);
     note_fd(SYNC, fd, !!number, 0, NULL, 0);
     pthread_mutex_unlock(&lock);
     if (number) errno = number;

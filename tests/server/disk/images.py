@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
 
-from tests.server.disk.recording import Call, File, Record
+from tests.server.disk.disk import Call, File, Record
 
 SECTOR = 512  # bytes
 SHARES = (0.02, 0.5, 0.98)  # of what was not synced: how much of it is kept

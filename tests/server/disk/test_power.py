@@ -1,6 +1,7 @@
 """A power loss at any sync loses nothing that was acknowledged, and leaves a sound store."""
 
 import os
+import signal
 import subprocess
 import sys
 from collections import Counter
@@ -9,31 +10,39 @@ from itertools import islice
 from pathlib import Path
 
 import pytest
+from tests.server.disk.disk import Call, File, Record
 from tests.server.disk.images import Loss, Platter, losses
-from tests.server.disk.load import Told
-from tests.server.disk.power import Recording, record
-from tests.server.disk.recording import Call, Disk, File, Record
+from tests.server.disk.recording import Recording
 
 N_ANSWERS = 48
+N_ANNOTATORS = 3
 SEED = 20261126
 
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Recording:
-    return record(tmp_path_factory.mktemp("recording"), SEED, N_ANSWERS)
+    """A server that is killed after half of the answers, and another one that is stopped at the end."""
+    recording = Recording(tmp_path_factory.mktemp("recording"))
+    people = recording.fill(N_ANSWERS, N_ANNOTATORS)
+    for end in (signal.SIGKILL, signal.SIGTERM):
+        with recording.serving() as server:
+            recording.answer(server, people, SEED + end, N_ANSWERS // N_ANNOTATORS // 2)
+            server.process.send_signal(end)
+            server.process.wait(30)
+    return recording
 
 
 def test_what_was_acknowledged_before_a_power_loss_is_kept_and_charged_once(recording: Recording) -> None:
     assert (len(recording.told.acknowledged()), set(recording.told.statuses)) == (N_ANSWERS, {200, 201})
     assert recording.told.heads
-    assert {File.STORE, File.WAL, File.FOLDER} <= {one.file for one in recording.records if one.call is Call.SYNC}
+    synced = {one.file for one in recording.disk.records() if one.call is Call.SYNC}
+    assert synced == {File.STORE, File.WAL, File.FOLDER}
     assert recording.wrong(islice(recording.losses(SEED), 0, None, 5)) == Counter()
 
 
 def test_on_a_disk_that_ignores_the_syncs_of_the_log_answers_are_lost(recording: Recording) -> None:
-    syncs = [one for one in recording.records if (one.call, one.file) != (Call.SYNC, File.WAL)]
-    careless = replace(recording, records=syncs)
-    assert careless.wrong(islice(careless.losses(SEED), 0, None, 4))["lost"] > 0
+    careless = recording.losses(SEED, without=(Call.SYNC, File.WAL))
+    assert recording.wrong(islice(careless, 0, None, 4))["lost"] > 0
 
 
 def test_a_seed_decides_which_parts_of_unsynced_writes_are_left(recording: Recording) -> None:
@@ -45,13 +54,11 @@ def test_a_seed_decides_which_parts_of_unsynced_writes_are_left(recording: Recor
 
 
 def test_a_power_loss_while_a_store_is_created_leaves_none_or_a_sound_one(tmp_path: Path) -> None:
-    store, before = tmp_path / "store" / "store.db", tmp_path / "before" / "store.db"
-    store.parent.mkdir()
-    disk = Disk(store)
-    command = [sys.executable, "-m", "waypost_server.cli", "migrate", "--database", disk.url]
-    subprocess.run(command, env={**os.environ, **disk.environment}, check=True, stdout=subprocess.DEVNULL)
-    recording = Recording(before, list(disk.records()), Told())
-    assert {File.JOURNAL, File.WAL} <= {one.file for one in recording.records}
+    recording = Recording(tmp_path)
+    command = [sys.executable, "-m", "waypost_server.cli", "migrate", "--database", recording.disk.url]
+    environment = {**os.environ, **recording.disk.environment}
+    subprocess.run(command, env=environment, check=True, stdout=subprocess.DEVNULL)
+    assert {File.JOURNAL, File.WAL} <= {one.file for one in recording.disk.records()}
     assert recording.wrong(islice(recording.losses(SEED), 0, None, 2)) == Counter()
 
 
