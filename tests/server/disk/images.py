@@ -129,14 +129,20 @@ class Loss:
             paths(store)[file].write_bytes(content)
 
 
-def losses(platter: Platter, records: Iterable[Record], seed: int) -> Iterator[Loss]:
-    """Yield the power losses just before each sync, twice: without anything unsynced, and with a part of it.
+def losses(platter: Platter, records: Iterable[Record], told: Iterable[int], seed: int) -> Iterator[Loss]:
+    """Yield the power losses just before each sync, and those just after clients were told something.
 
-    The seed decides about the parts.
+    Each leaves nothing that was not synced. Before a sync there is another one that leaves a part of it.
+
+    Args:
+        platter: the disk as it was before the first record.
+        told: the positions in the log at which clients were told something.
+        seed: decides about the parts.
     """
-    choose = random.Random(seed)
-    end = 0
+    choose, moments, end = random.Random(seed), sorted(set(told), reverse=True), 0
     for record in records:
+        while moments and moments[-1] <= record.start:
+            yield Loss(moments.pop(), platter.image(lambda: False))
         if record.call is Call.SYNC:
             share = choose.choice(SHARES)
             yield Loss(record.start, platter.image(lambda: False))

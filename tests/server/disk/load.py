@@ -11,7 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 
 import httpx2
-from sqlalchemy import func, select
+from sqlalchemy import select
 from tests.server.kit import API, Json, in_process, query
 
 from waypost_server.db import audit, checking
@@ -20,6 +20,7 @@ from waypost_server.db.tables import answers, ledger
 from waypost_server.db.transaction import Tx
 
 BODY_BYTES = 8_000  # of a query: so large that the write-ahead log is checkpointed often
+PATIENCE_SECONDS = 20
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,10 @@ class Told:
         """Return the answers that were acknowledged before a position, by default all."""
         seen = [one for one in self.answers if one.seen is not None]
         return [one for one in seen if position is None or (one.seen or 0) <= position]
+
+    def so_far(self) -> "Told":
+        """Return what clients were told until now."""
+        return Told(self.acknowledged(), list(self.heads))
 
     def head(self, position: int | None) -> str | None:
         """Return the newest head of the audit log that was read before a position, by default of all."""
@@ -121,6 +126,7 @@ def _client(address: str, headers: dict[str, str]) -> httpx2.Client:
 
 def _persistently(client: httpx2.Client, told: Told, path: str, body: Json) -> Json | None:
     """Send a request until it is not refused with 503, and return the reply; None without content or a server."""
+    until = time.monotonic() + PATIENCE_SECONDS
     while True:
         try:
             reply = client.post(path, json=body)
@@ -129,6 +135,7 @@ def _persistently(client: httpx2.Client, told: Told, path: str, body: Json) -> J
         told.statuses[reply.status_code] += 1
         if reply.status_code != 503:
             return reply.json() if reply.is_success and reply.content else None
+        assert time.monotonic() < until, f"refused for {PATIENCE_SECONDS} seconds: {reply.text}"
         time.sleep(0.05)
 
 
@@ -139,6 +146,9 @@ def proof(url: str, told: Told, position: int | None = None) -> Counter[str]:
         url: of the store, which is created if there is none.
         told: what clients were told by the server that wrote the store.
         position: where the disk's log ended for this store; by default, all has happened that clients were told.
+
+    Returns:
+        How many acknowledged answers are lost or charged twice, and the number of faults by fact of `waypost check`.
     """
     wrong: Counter[str] = Counter()
     db = Database(url)
@@ -147,19 +157,23 @@ def proof(url: str, told: Told, position: int | None = None) -> Counter[str]:
         noted = None if head is None else audit.Head(int(head.partition(":")[0]), head.partition(":")[2])
         for result in db.read_now(lambda tx: checking.check(tx, noted)):
             wrong[result.fact] += result.n_faults
-        stored = db.read_now(_answers)
+        stored = db.read_now(_charged)
     finally:
         db.close()
     for answer in told.acknowledged(position):
-        wrong["lost"] += stored.get(answer.assignment) != answer.body["answer"]["verdict"]
+        verdicts = stored.get(answer.assignment, [])
+        wrong["lost"] += answer.body["answer"]["verdict"] not in verdicts
+        wrong["charged twice"] += len(verdicts) > 1
     return +wrong
 
 
-def _answers(tx: Tx) -> dict[int, str]:
-    """Return the verdict of each answer that is charged once, by its assignment."""
-    charges = select(func.count()).where(ledger.c.answer_id == answers.c.id).scalar_subquery()
-    rows = tx.conn.execute(select(answers.c.assignment_id, answers.c.content).where(charges == 1))
-    return {row.assignment_id: json.loads(row.content)["verdict"] for row in rows}
+def _charged(tx: Tx) -> dict[int, list[str]]:
+    """Return the verdict of each charge, by the assignment of its answer."""
+    charged = select(answers.c.assignment_id, answers.c.content).join(ledger, ledger.c.answer_id == answers.c.id)
+    found: dict[int, list[str]] = {}
+    for row in tx.conn.execute(charged):
+        found.setdefault(row.assignment_id, []).append(json.loads(row.content)["verdict"])
+    return found
 
 
 def send_again(url: str, told: Told) -> int:

@@ -1,6 +1,7 @@
 """A store on a played disk: a server uses it, and its record shows what power losses would leave."""
 
 import shutil
+import signal
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager
@@ -41,10 +42,19 @@ class Recording:
         """Answer with all annotators at once, `most` answers each."""
         answer_all(server.address, people, self.told, lambda: self.disk.position, seed, most)
 
+    def answer_and_end(self, people: Team, seed: int, most: int) -> None:
+        """Answer with a server that is killed after half of the answers, then with one that is stopped."""
+        for end in (signal.SIGKILL, signal.SIGTERM):
+            with self.serving() as server:
+                self.answer(server, people, seed + end, most // 2)
+                server.process.send_signal(end)
+                server.process.wait(30)
+
     def losses(self, seed: int, without: tuple[Call, File] | None = None) -> Iterator[Loss]:
-        """Yield the power losses at each sync, also as if some calls had not been made."""
+        """Yield the power losses at each sync and each acknowledgment, if wanted as if some calls were not made."""
         made: Iterable[Record] = (one for one in self.disk.records() if (one.call, one.file) != without)
-        return losses(Platter(self._before), made, seed)
+        told = [one.seen for one in self.told.answers if one.seen is not None]
+        return losses(Platter(self._before), made, told, seed)
 
     def wrong(self, some: Iterable[Loss]) -> Counter[str]:
         """Open the store that each power loss leaves as a server does, and count what is wrong with all of them."""
