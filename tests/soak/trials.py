@@ -29,18 +29,18 @@ SHORTEST, LONGEST = 0.1, 1.5  # seconds until a server is killed
 
 
 def power(folder: Path, seed: int) -> Counter[str]:
-    """Record a server that is killed, and one that is stopped; let the power fail at every sync."""
+    """Record a server that is killed, and one that is stopped; let the power fail at every sync and acknowledgment."""
     recording = Recording(folder)
     recording.answer_and_end(recording.fill(48, N_ANNOTATORS), seed, 12)
     return _told(recording.told) + _after_losses(recording, seed)
 
 
 def faults(folder: Path, seed: int) -> Counter[str]:
-    """Let calls of a server's disk fail, then kill the server and let the power fail at every tenth sync."""
+    """Let calls of a server's disk fail, then kill the server and let the power fail at a part of these moments."""
     recording, choose = Recording(folder), random.Random(seed)
     people, failed = recording.fill(N_QUERIES, N_ANNOTATORS), 0
     with recording.serving() as server:
-        for number in range(20):
+        for number in range(12):
             calls = choose.choice([Call.WRITE, Call.SYNC, Call.WRITE | Call.SYNC])
             skip = choose.randrange(4 if calls is Call.SYNC else 40)
             file = choose.choice([None, None, File.STORE])
@@ -52,7 +52,7 @@ def faults(folder: Path, seed: int) -> Counter[str]:
         server.process.wait()
     wrong = proof(recording.disk.url, recording.told)
     wrong["other receipts"] += send_again(recording.disk.url, recording.told)
-    return _told(recording.told) + Counter({"faults": failed}) + wrong + _after_losses(recording, seed, 10)
+    return _told(recording.told) + Counter({"faults": failed}) + wrong + _after_losses(recording, seed, 11)
 
 
 def kills(url: str, folder: Path, seed: int) -> Counter[str]:
@@ -113,8 +113,7 @@ def _told(told: Told) -> Counter[str]:
 
 
 def _after_losses(recording: Recording, seed: int, step: int = 1) -> Counter[str]:
-    wrong = Counter[str]()
-    for number, loss in enumerate(recording.losses(seed)):
-        if number % step == 0:
-            wrong += Counter({"power losses": 1}) + recording.wrong([loss])
-    return wrong
+    counts = Counter[str]()
+    for loss in recording.losses(seed, step):
+        counts += Counter({"power losses": 1}) + recording.wrong([loss])
+    return counts

@@ -4,6 +4,7 @@ What was synced is there. Of everything since, each sector of 512 bytes is there
 A write whose sync failed may never arrive, even if a later sync succeeds: Linux forgets such writes.
 """
 
+import itertools
 import random
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
@@ -31,15 +32,17 @@ class _Change:
     state: _State = _State.PENDING
 
     def apply(self, to: bytearray, chance: Chance) -> None:
-        kept = (lambda: True) if self.state is _State.SYNCED else chance
-        if self.content is not None:
-            for start, end in _sectors(self.offset, self.offset + len(self.content)):
-                if kept():
-                    to.extend(bytes(max(0, start - len(to))))
-                    to[start:end] = self.content[start - self.offset : end - self.offset]
-        elif kept():
-            to.extend(bytes(max(0, self.offset - len(to))))
-            del to[self.offset :]
+        is_synced = self.state is _State.SYNCED
+        if self.content is None:
+            if is_synced or chance():
+                to.extend(bytes(max(0, self.offset - len(to))))
+                del to[self.offset :]
+            return
+        whole = (self.offset, self.offset + len(self.content))
+        for start, end in [whole] if is_synced else _sectors(*whole):
+            if is_synced or chance():
+                to.extend(bytes(max(0, start - len(to))))
+                to[start:end] = self.content[start - self.offset : end - self.offset]
 
 
 @dataclass
@@ -129,8 +132,10 @@ class Loss:
             paths(store)[file].write_bytes(content)
 
 
-def losses(platter: Platter, records: Iterable[Record], told: Iterable[int], seed: int) -> Iterator[Loss]:
-    """Yield the power losses just before each sync, and those just after clients were told something.
+def losses(
+    platter: Platter, records: Iterable[Record], told: Iterable[int], seed: int, step: int = 1
+) -> Iterator[Loss]:
+    """Yield every `step`th of the power losses just before each sync and just after clients were told something.
 
     Each leaves nothing that was not synced. Before a sync there is another one that leaves a part of it.
 
@@ -139,17 +144,23 @@ def losses(platter: Platter, records: Iterable[Record], told: Iterable[int], see
         told: the positions in the log at which clients were told something.
         seed: decides about the parts.
     """
-    choose, moments, end = random.Random(seed), sorted(set(told), reverse=True), 0
+    number = itertools.count()
+
+    def loss(position: int, share: float = 0.0) -> Iterator[Loss]:
+        if (n := next(number)) % step == 0:
+            choose = random.Random(f"{seed} {n}")
+            yield Loss(position, platter.image(lambda: choose.random() < share))
+
+    shares, moments, end = random.Random(seed), sorted(set(told), reverse=True), 0
     for record in records:
         while moments and moments[-1] <= record.start:
-            yield Loss(moments.pop(), platter.image(lambda: False))
+            yield from loss(moments.pop())
         if record.call is Call.SYNC:
-            share = choose.choice(SHARES)
-            yield Loss(record.start, platter.image(lambda: False))
-            yield Loss(record.start, platter.image(lambda share=share: choose.random() < share))
+            yield from loss(record.start)
+            yield from loss(record.start, shares.choice(SHARES))
         platter.apply(record)
         end = record.end
-    yield Loss(end, platter.image(lambda: False))
+    yield from loss(end)
 
 
 def paths(store: Path) -> dict[File, Path]:

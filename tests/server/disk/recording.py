@@ -50,11 +50,11 @@ class Recording:
                 server.process.send_signal(end)
                 server.process.wait(30)
 
-    def losses(self, seed: int, without: tuple[Call, File] | None = None) -> Iterator[Loss]:
-        """Yield the power losses at each sync and each acknowledgment, if wanted as if some calls were not made."""
+    def losses(self, seed: int, step: int = 1, without: tuple[Call, File] | None = None) -> Iterator[Loss]:
+        """Yield every `step`th power loss, if wanted as if some calls were not made."""
         made: Iterable[Record] = (one for one in self.disk.records() if (one.call, one.file) != without)
         told = [one.seen for one in self.told.answers if one.seen is not None]
-        return losses(Platter(self._before), made, told, seed)
+        return losses(Platter(self._before), made, told, seed, step)
 
     def wrong(self, some: Iterable[Loss]) -> Counter[str]:
         """Open the store that each power loss leaves as a server does, and count what is wrong with all of them."""
