@@ -14,7 +14,7 @@ import pytest
 from tests.server.disk.disk import Call, File
 from tests.server.disk.load import Team, proof, send_again
 from tests.server.disk.recording import Recording
-from tests.server.kit import API
+from tests.server.kit import API, in_process
 from tests.server.processes import Served
 
 N_ANNOTATORS = 3
@@ -98,6 +98,26 @@ def test_answers_are_stored_while_the_log_cannot_be_copied_into_the_store(record
         recording.answer(server, people, SEED + 1, 10)
         assert File.STORE in {one.file for one in recording.disk.records() if one.call is Call.SYNC and not one.failed}
         end(recording, server, 61)
+
+
+def test_an_answer_whose_sync_failed_may_be_stored_after_all_and_sent_again_it_is_charged_once(
+    recording: Recording,
+) -> None:
+    people = recording.fill(1, 1)
+    headers = people.annotators[0]
+    with recording.serving() as server, httpx2.Client(base_url=server.address, headers=headers) as client:
+        held = client.post(f"{API}/assignments", json={"run": people.run}).json()
+        body = {"token": held["token"], "answer": {"kind": "inspect_full", "verdict": "pass"}}
+        path = f"{API}/assignments/{held['id']}/answer"
+        recording.disk.fail(errno.EIO, Call.SYNC)
+        assert client.post(path, json=body).status_code == 503
+        server.process.send_signal(signal.SIGKILL)
+        server.process.wait()
+    with in_process(recording.disk.url) as service:
+        assert service.learner.costs(people.run)["total"] == 1, "the whole transaction is in the log"
+        for _ in range(2):
+            assert service.client.post(path, json=body, headers=headers).status_code == 200
+        assert service.learner.costs(people.run)["total"] == 1
 
 
 def test_a_server_does_not_start_on_a_disk_that_fails(recording: Recording) -> None:
