@@ -36,7 +36,7 @@ def power(folder: Path, seed: int) -> Counter[str]:
 
 
 def faults(folder: Path, seed: int) -> Counter[str]:
-    """Let calls of a server's disk fail, then kill the server and let the power fail at a part of these moments."""
+    """Let calls of a server's disk fail, then kill the server; let the power fail at every eleventh such moment."""
     recording, choose = Recording(folder), random.Random(seed)
     people, failed = recording.fill(N_QUERIES, N_ANNOTATORS), 0
     with recording.serving() as server:
