@@ -10,7 +10,7 @@ ARGS ?=
 PYTEST_ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help demo serve web docs docs-serve test test-web test-browsers lint lint-python lint-web bench clean
+.PHONY: help demo serve web docs docs-serve test test-web test-browsers lint lint-python lint-web bench soak clean
 .DELETE_ON_ERROR:
 
 help:
@@ -20,6 +20,7 @@ help:
 	@echo "make test-browsers  open the web app in Firefox and WebKit, which it installs (Debian, Ubuntu)"
 	@echo "make lint    run only the checks: style, types, import contracts"
 	@echo "make bench   measure, and print tables"
+	@echo "make soak    try for 10 minutes to make stores lose answers, and print counts"
 	@echo "make web     build the web app"
 	@echo "make docs    build the documentation site into site/; make docs-serve shows it while you write"
 	@echo "make clean   remove everything that the other targets made, except stores and checkpoints"
@@ -74,6 +75,9 @@ lint-web: web/node_modules/.stamp $(VENV)/.dev
 
 bench: $(VENV)/.dev $(PEERS)/.installed
 	@set -e; for file in bench/*.py; do echo "== $$file"; PYTHONPATH=. $(PYTHON) "$$file" $(ARGS); done
+
+soak: $(VENV)/.dev
+	@exec $(PYTHON) -m tests.soak $(ARGS)
 
 clean:
 	rm -rf $(VENV) web/node_modules web/dist server/waypost_server/static site .mypy_cache .ruff_cache .pytest_cache .import_linter_cache \

@@ -6,13 +6,17 @@ import subprocess
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from functools import cached_property
 from itertools import count
 from pathlib import Path
 from typing import Any
 
+import psycopg
 import pytest
+from sqlalchemy import make_url
 
 from waypost_server import serving
+from waypost_server.db.engine import Database
 from waypost_server.settings import Settings
 
 _numbers = count()
@@ -41,15 +45,35 @@ class Cluster:
         options = f"-c listen_addresses='' -c unix_socket_directories={folder} -c fsync={sync} -c max_connections=200"
         self._run("initdb", "--no-sync", "-A", "trust", "-U", "postgres", "-E", "UTF8", "--locale=C", "-D", data)
         self._run("pg_ctl", "-w", "-D", data, "-l", str(folder / "log"), "-o", options, "start")
+        self._conn = psycopg.connect(host=str(folder), user="postgres", autocommit=True)
+
+    @cached_property
+    def _store(self) -> str:
+        """The name of a database with a store that nobody has used."""
+        url = self.create_empty()
+        Database(url).close()
+        return name_of(url)
 
     def create(self) -> str:
+        """Create a database with a new store, and return its URL. To copy one takes half as long as to create one."""
+        return self._create(self._store)
+
+    def create_empty(self) -> str:
         """Create an empty database and return its URL."""
+        return self._create("template0")
+
+    def _create(self, template: str) -> str:
         name = f"waypost_{next(_numbers)}"
-        self._run("createdb", "-h", str(self._folder), "-U", "postgres", name)
+        self._conn.execute(f"CREATE DATABASE {name} TEMPLATE {template}")  # type: ignore[call-overload]  # no literal
         return f"postgresql://postgres@/{name}?host={self._folder}"
+
+    def drop(self, url: str) -> None:
+        """Drop a database, even if it is in use."""
+        self._conn.execute(f"DROP DATABASE {name_of(url)} WITH (FORCE)")  # type: ignore[call-overload]  # no literal
 
     def stop(self) -> None:
         """Stop the cluster."""
+        self._conn.close()
         self._run("pg_ctl", "-D", str(self._folder / "data"), "-m", "immediate", "stop")
 
     def _run(self, program: str, *arguments: str) -> None:
@@ -80,19 +104,49 @@ def cluster() -> Iterator[Cluster]:
             cluster.stop()
 
 
+def name_of(url: str) -> str:
+    """Return the name of the database that a URL of PostgreSQL leads to."""
+    return str(make_url(url).database)
+
+
 @pytest.fixture
 def sqlite_url(tmp_path: Path) -> str:
     """The URL of an SQLite store that does not exist yet."""
     return f"sqlite:///{tmp_path / f'waypost{next(_numbers)}.db'}"
 
 
+@pytest.fixture(scope="session")
+def sqlite_store(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An SQLite store that nobody has used, to copy: this takes a third of the time that creating one takes."""
+    path = tmp_path_factory.mktemp("store") / "waypost.db"
+    Database(f"sqlite:///{path}").close()
+    return path
+
+
 @pytest.fixture(params=["sqlite", "postgresql"])
-def database_url(request: pytest.FixtureRequest) -> str:
-    """The URL of an empty database; the test runs once for each kind of database."""
+def database_url(request: pytest.FixtureRequest) -> Iterator[str]:
+    """The URL of a new store; the test runs once for each kind of database."""
     if request.param == "sqlite":
-        return str(request.getfixturevalue("sqlite_url"))
-    cluster: Cluster = request.getfixturevalue("cluster")
-    return cluster.create()
+        url: str = request.getfixturevalue("sqlite_url")
+        shutil.copy(request.getfixturevalue("sqlite_store"), str(make_url(url).database))
+        yield url
+    else:
+        cluster: Cluster = request.getfixturevalue("cluster")
+        url = cluster.create()
+        yield url
+        cluster.drop(url)
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def empty_url(request: pytest.FixtureRequest) -> Iterator[str]:
+    """The URL of a database without a store; the test runs once for each kind of database."""
+    if request.param == "sqlite":
+        yield str(request.getfixturevalue("sqlite_url"))
+    else:
+        cluster: Cluster = request.getfixturevalue("cluster")
+        url = cluster.create_empty()
+        yield url
+        cluster.drop(url)
 
 
 @pytest.fixture

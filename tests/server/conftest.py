@@ -1,8 +1,11 @@
 """The service under test, on each database."""
 
+import shutil
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
+from sqlalchemy import make_url
 from tests.server.kit import Service, in_process
 
 
@@ -14,7 +17,8 @@ def service(database_url: str) -> Iterator[Service]:
 
 
 @pytest.fixture
-def lite(sqlite_url: str) -> Iterator[Service]:
+def lite(sqlite_url: str, sqlite_store: Path) -> Iterator[Service]:
     """The app on SQLite alone, for what does not depend on the database."""
+    shutil.copy(sqlite_store, str(make_url(sqlite_url).database))
     with in_process(sqlite_url) as service:
         yield service

@@ -22,14 +22,20 @@ class Served:
 
 
 @contextmanager
-def serving(url: str, folder: Path, settings: Mapping[str, str], *options: str) -> Iterator[Served]:
-    """Run `serve` until the context ends. The settings are named as in `Settings`."""
+def serving(
+    url: str, folder: Path, settings: Mapping[str, str], *options: str, variables: Mapping[str, str] | None = None
+) -> Iterator[Served]:
+    """Run `serve` until the context ends. The settings are named as in `Settings`; other variables as they are."""
     command = [sys.executable, "-u", "-m", "waypost_server.cli", "serve", "--port", "0", "--database", url, *options]
     environment = {f"WAYPOST_{name.upper()}": value for name, value in settings.items()}
     log = folder / "server.log"
     with log.open("w") as stderr:
         process = subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=stderr, text=True, env={**os.environ, **environment}
+            command,
+            stdout=subprocess.PIPE,
+            stderr=stderr,
+            text=True,
+            env={**os.environ, **environment, **(variables or {})},
         )
     try:
         assert process.stdout is not None

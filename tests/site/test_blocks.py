@@ -50,7 +50,7 @@ def test_the_blocks_of_a_page_run_one_after_the_other(page, tmp_path, request):
             if any(f"{name}/" in block.tested for block in blocks(page) if runs(block)):
                 shutil.copytree(ROOT / name, opened.folder / name, ignore=shutil.ignore_patterns("images"))
         if DATABASE in page.read_text():
-            opened.postgresql = request.getfixturevalue("cluster").create()
+            opened.postgresql = request.getfixturevalue("cluster").create_empty()
         if beside_server(page):
             stack.callback(server_with_a_query(opened.folder, opened.port).stop)
         for block in blocks(page):

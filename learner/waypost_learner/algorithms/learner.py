@@ -77,6 +77,8 @@ class Learner:
         self._head_start = head_start
         keys = levels.keys(len(domain.subgoals))
         self.shared = self._shared(keys[0])
+        if self.shared is not None:
+            self.preset = replace(preset, use=preset.use.without_views)
         self.views = {key: self._view(key, keys[0]) for key in keys}
         owners = [key for key in keys if self.views[key].owner == key]
         self.q = {key: self._q_function(key) for key in owners if levels.is_q_function(key)}

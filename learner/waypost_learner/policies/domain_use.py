@@ -1,6 +1,6 @@
 """Defines which of a domain's declarations a learner uses: a preset's values for symmetries, views and relabeling."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,11 @@ class DomainUse:
             )
         if self.planning is not None and self.planning < 1:
             raise ValueError(f"planning={self.planning} is no number of features; write 1 or more, or null")
+
+    @property
+    def without_views(self) -> "DomainUse":
+        """What is used where all policies see whole observations, as those that share a network do."""
+        return replace(self, views=False, centered=False, crop=False, planning=None)
 
 
 NOTHING_DECLARED = DomainUse()

@@ -17,6 +17,7 @@ from waypost_server.cli.shared import DEFAULT_DATABASE, DatabaseOption, NoBackup
 from waypost_server.db import backup, migration
 from waypost_server.db.engine import BadDatabase, Database
 from waypost_server.db.schema import NewerStore
+from waypost_server.errors import StorageFailed
 from waypost_server.gold.practice import BadPractice
 from waypost_server.http import logs, spa
 from waypost_server.settings import Settings
@@ -106,5 +107,13 @@ def serve(
     except ValidationError as error:
         first = error.errors()[0]
         refuse(f"The setting {'.'.join(map(str, first['loc']))} is not valid: {first['msg']}.")
-    except (serving.CannotServe, BadDatabase, NewerStore, BadPractice, BadProvider, backup.CannotBackUp) as error:
+    except (
+        serving.CannotServe,
+        BadDatabase,
+        NewerStore,
+        StorageFailed,
+        BadPractice,
+        BadProvider,
+        backup.CannotBackUp,
+    ) as error:
         refuse(str(error))

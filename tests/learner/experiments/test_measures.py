@@ -13,7 +13,7 @@ from tests.learner.kit import corridor, examples
 
 from waypost_learner.experiments import plan
 from waypost_learner.experiments.figures import draw, look, measures, tables
-from waypost_learner.experiments.figures.data import Comparison, RunCurves
+from waypost_learner.experiments.figures.data import KINDS, Comparison, RunCurves
 from waypost_learner.experiments.figures.published import published
 from waypost_learner.experiments.figures.statistics import Track, band, first_at, spread
 from waypost_server.runs.curves import first_at as server_first_at
@@ -131,11 +131,16 @@ def test_published_numbers_stand_beside_those_counted_alike_and_nowhere_else() -
 
 
 def test_a_level_that_was_not_reached_is_never_in_a_whole_run_and_unknown_in_an_unfinished_one() -> None:
-    whole = run_of(corridor(episodes=3), [False] * 3)
+    whole = run_of(corridor(episodes=100), [False] * 100)
     assert measures.at_level(whole, 0.8, whole.lo_samples) == float("inf")
-    unfinished = run_of(corridor(episodes=9), [False] * 3)
+    unfinished = run_of(corridor(episodes=900), [False] * 100)
     assert np.isnan(measures.at_level(unfinished, 0.8, unfinished.lo_samples))
     assert np.isnan(measures.at_end(unfinished, unfinished.lo_samples))
+
+
+def test_whether_a_run_with_less_than_a_hundred_tests_reached_a_level_is_unknown() -> None:
+    short = run_of(corridor(episodes=99), [True] * 99)
+    assert np.isnan(measures.at_level(short, 0.8, short.lo_samples))
 
 
 def test_success_after_so_many_episodes_is_the_rate_at_just_that_one() -> None:
@@ -169,6 +174,25 @@ def test_ratios_are_of_runs_of_one_seed() -> None:
     found = results_of(comparison)[("", "LO cost without demonstrations, naive h-DAgger / hg-DAgger")].ours
     assert found is not None
     assert (found.low, found.high, found.runs) == (2, 50, 2)
+
+
+def test_totals_of_runs_that_are_not_equally_long_have_no_ratio() -> None:
+    comparison = published_runs(20)
+    name = ("", "expert cost, hg-DAgger / flat DAgger")
+    assert name in results_of(comparison)
+    [flat] = [series for series in comparison.runs if series.config.algorithm == "flat-dagger"]
+    longer = run_of(replace(flat.config, episodes=30), [True] * 30, **dict.fromkeys(KINDS, [1.0] * 30))
+    assert name not in results_of(Comparison(comparison.group, {**comparison.runs, flat: [longer]}))
+
+
+def test_of_several_variants_of_an_algorithm_the_first_has_the_ratio() -> None:
+    comparison = published_runs(20)
+    guided = next(series for series in comparison.runs if series.config.algorithm == "hg-dagger")
+    variant = replace(guided, label="hg-DAgger, variant")
+    dear = run_of(replace(guided.config, episodes=20), [True] * 20, **dict.fromkeys(KINDS, [1_000.0] * 20))
+    name = ("", "expert cost, hg-DAgger / flat DAgger")
+    with_variant = Comparison(comparison.group, {**comparison.runs, variant: [dear]})
+    assert results_of(with_variant)[name].ours == results_of(comparison)[name].ours
 
 
 def test_the_summary_says_never_where_the_median_run_never_got_there(tmp_path: Path) -> None:

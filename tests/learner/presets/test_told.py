@@ -10,6 +10,7 @@ from tests.learner.kit import store
 
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.policies.fields import agent_finder
 from waypost_learner.policies.levels import Levels
 from waypost_learner.presets import find_preset
 from waypost_learner.presets.base import Preset
@@ -99,11 +100,18 @@ def test_a_run_that_is_told_nothing_learns_each_label_once_as_it_was_given(algor
     assert all(view.view.observe(observation) is observation for view in learner.views.values())
 
 
+def test_a_run_whose_policies_share_a_network_was_told_no_more_than_symmetries() -> None:
+    for level in ("symmetries", "centered", "crop", "structure"):
+        assert set_up(TrainConfig("hg-dagger", preset="general", told=level), threads=1).told == "symmetries"
+    assert set_up(TrainConfig("hg-dagger", preset="general", told="nothing"), threads=1).told == "nothing"
+    assert set_up(TrainConfig("hg-dagger", preset="lean", told="crop"), threads=1).told == "crop"
+
+
 class Secret:
     """A part of a domain that may be found, but not used."""
 
     def _refuse(self, *_: Any) -> Any:
-        raise AssertionError("the learner was told nothing, and used a part of the domain")
+        raise AssertionError("the learner used a part of the domain that it was not told")
 
     __call__ = __iter__ = __len__ = __getitem__ = __getattr__ = _refuse
 
@@ -111,30 +119,49 @@ class Secret:
         return True
 
 
-class Reticent(MazeDomain):
-    """A maze that tells nothing that a learner at `--told nothing` must not use."""
+PLACES = ("place", "relabeled", "relabeled_actions", "retraced", "hi_view", "lo_view", "flat_view")
 
-    place = relabeled = relabeled_actions = retraced = Secret()  # type: ignore[assignment]
-    symmetries = hi_view = lo_view = flat_view = centered_view = crop_view = Secret()  # type: ignore[assignment]
+
+def reticent(*parts: str) -> type[MazeDomain]:
+    """A maze that keeps parts secret."""
+    return type("Reticent", (MazeDomain,), dict.fromkeys(parts, Secret()))
+
+
+TellsNothing = reticent(*PLACES, "symmetries", "centered_view", "crop_view")
+TellsSymmetries = reticent(*PLACES, "centered_view", "crop_view")
+TellsTheAgent = reticent(*PLACES, "crop_view")
+TellsTheCrop = reticent(*PLACES)
 
 
 @pytest.mark.parametrize(
-    ("preset", "algorithm", "networks"),
+    ("told", "teller", "preset", "algorithm", "networks"),
     [
-        ("general", "hg-dagger", ["train_shared"]),
-        ("general", "flat-dagger", ["train_shared"]),
-        ("lean", "hg-stagger", ["train_hi", "train_lo"]),
+        ("nothing", "TellsNothing", "general", "hg-dagger", ["train_shared"]),
+        ("nothing", "TellsNothing", "general", "flat-dagger", ["train_shared"]),
+        ("nothing", "TellsNothing", "general", "hg-gated", ["train_shared"]),
+        ("nothing", "TellsNothing", "lean", "hg-stagger", ["train_hi", "train_lo"]),
+        ("symmetries", "TellsSymmetries", "general", "hg-dagger", ["train_shared"]),
+        ("symmetries", "TellsSymmetries", "lean", "hg-dagger", ["train_hi", "train_lo"]),
+        ("centered", "TellsTheAgent", "lean", "hg-dagger", ["train_hi", "train_lo"]),
+        ("crop", "TellsTheCrop", "lean", "hg-dagger", ["train_hi", "train_lo"]),
     ],
 )
-def test_a_whole_run_that_is_told_nothing_uses_nothing_more_of_the_domain(
-    tmp_path: Path, preset: str, algorithm: str, networks: list[str]
+def test_a_whole_run_uses_nothing_more_of_the_domain_than_it_is_told(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    told: str,
+    teller: str,
+    preset: str,
+    algorithm: str,
+    networks: list[str],
 ) -> None:
+    monkeypatch.setattr(agent_finder, "_TRIES", 1)  # to be fast
     fast = " ".join(f"{one}.least=64 {one}.most=64 {one}.idle=0" for one in networks)
     fast += " fields.far=8" if preset == "general" else ""
-    domain = f"{__name__}:Reticent"
+    domain = f"{__name__}:{teller}"
     config = TrainConfig(
-        algorithm, domain, preset=preset, episodes=3, warm_start=1, told="nothing", test_every=3, values=fast
+        algorithm, domain, preset=preset, episodes=3, warm_start=1, told=told, test_every=3, values=fast
     )
     with store(tmp_path) as (connection, options):
         summary = train(config, connection, options)
-    assert (summary["told"], summary["episodes"]) == ("nothing", 3)
+    assert (summary["told"], summary["episodes"]) == (told, 3)

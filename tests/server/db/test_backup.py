@@ -28,11 +28,11 @@ def run(*arguments: str, status: int = 0) -> str:
 
 
 @pytest.fixture
-def elsewhere(database_url: str, tmp_path: Path, request: pytest.FixtureRequest) -> str:
+def elsewhere(empty_url: str, tmp_path: Path, request: pytest.FixtureRequest) -> str:
     """The URL of a store to restore to: a new file, or an empty database."""
-    if database_url.startswith("sqlite"):
+    if empty_url.startswith("sqlite"):
         return f"sqlite:///{tmp_path / 'restored.db'}"
-    return str(request.getfixturevalue("cluster").create())
+    return str(request.getfixturevalue("cluster").create_empty())
 
 
 def answer_all(service: Service, stop: threading.Event) -> None:
@@ -45,16 +45,16 @@ def answer_all(service: Service, stop: threading.Event) -> None:
 
 
 def test_what_is_backed_up_while_a_server_writes_is_restored_whole(
-    database_url: str, elsewhere: str, tmp_path: Path
+    empty_url: str, elsewhere: str, tmp_path: Path
 ) -> None:
     stop = threading.Event()
-    with in_process(database_url) as service:
+    with in_process(empty_url) as service:
         writing = threading.Thread(target=answer_all, args=[service, stop])
         writing.start()
         time.sleep(0.5)
-        *_, log = json.loads(run("check", "--json", "--database", database_url))
+        *_, log = json.loads(run("check", "--json", "--database", empty_url))
         for number in range(3):
-            assert "Backed up" in run("backup", str(tmp_path / f"{number}"), "--database", database_url)
+            assert "Backed up" in run("backup", str(tmp_path / f"{number}"), "--database", empty_url)
         stop.set()
         writing.join()
         spent = service.viewer.get("/runs")["runs"][0]["spent"]
@@ -64,23 +64,23 @@ def test_what_is_backed_up_while_a_server_writes_is_restored_whole(
         assert 0 < restored.viewer.get("/runs")["runs"][0]["spent"] <= spent
 
 
-def test_a_backup_replaces_nothing(database_url: str, tmp_path: Path) -> None:
-    with in_process(database_url):
+def test_a_backup_replaces_nothing(empty_url: str, tmp_path: Path) -> None:
+    with in_process(empty_url):
         pass
     (tmp_path / "mine").write_text("precious")
-    assert "exists" in run("backup", str(tmp_path / "mine"), "--database", database_url, status=2)
+    assert "exists" in run("backup", str(tmp_path / "mine"), "--database", empty_url, status=2)
     assert (tmp_path / "mine").read_text() == "precious"
     assert [one.name for one in tmp_path.iterdir() if one.name.startswith(".mine")] == []
 
 
-def test_nothing_is_restored_over_a_store(database_url: str, tmp_path: Path) -> None:
-    with in_process(database_url) as service:
+def test_nothing_is_restored_over_a_store(empty_url: str, tmp_path: Path) -> None:
+    with in_process(empty_url) as service:
         service.learner.create_run(name="kept")
-        run("backup", str(tmp_path / "backup"), "--database", database_url)
-        said = run("restore", str(tmp_path / "backup"), "--database", database_url, status=2)
+        run("backup", str(tmp_path / "backup"), "--database", empty_url)
+        said = run("restore", str(tmp_path / "backup"), "--database", empty_url, status=2)
         assert "exists" in said
         assert service.viewer.get("/runs")["runs"][0]["name"] == "kept"
-    assert "WRONG" not in run("check", "--database", database_url)
+    assert "WRONG" not in run("check", "--database", empty_url)
 
 
 @pytest.mark.parametrize("content", [b"", b"not a store", b"SQLite format 3\x00" + bytes(4_000)])
@@ -115,10 +115,10 @@ def test_a_backup_with_a_fault_is_restored_only_if_one_insists(
 
 
 def test_a_backup_of_an_older_store_is_restored_and_can_be_migrated(
-    database_url: str, elsewhere: str, tmp_path: Path
+    empty_url: str, elsewhere: str, tmp_path: Path
 ) -> None:
-    make_older_store(database_url)
-    run("backup", str(tmp_path / "backup"), "--database", database_url)
+    make_older_store(empty_url)
+    run("backup", str(tmp_path / "backup"), "--database", empty_url)
     assert "`waypost migrate`" in run("restore", str(tmp_path / "backup"), "--database", elsewhere)
     run("migrate", "--no-backup", "--database", elsewhere)
     assert "WRONG" not in run("check", "--database", elsewhere)
@@ -157,35 +157,35 @@ def copies(folder: Path) -> list[Path]:
     return list(folder.glob("*.before-*"))
 
 
-def test_an_older_store_is_backed_up_before_it_is_migrated(database_url: str, elsewhere: str, here: Path) -> None:
-    make_older_store(database_url)
-    said = run("migrate", "--database", database_url)
+def test_an_older_store_is_backed_up_before_it_is_migrated(empty_url: str, elsewhere: str, here: Path) -> None:
+    make_older_store(empty_url)
+    said = run("migrate", "--database", empty_url)
     (copy,) = copies(here)
     assert copy.name in said
     run("restore", str(copy), "--database", elsewhere)
-    assert (schema_of(elsewhere), schema_of(database_url)) == ("0006", newest())
-    run("migrate", "--database", database_url)
+    assert (schema_of(elsewhere), schema_of(empty_url)) == ("0006", newest())
+    run("migrate", "--database", empty_url)
     assert len(copies(here)) == 1, "a store of this version needs no copy"
 
 
-def test_those_who_migrate_at_once_make_one_backup(database_url: str, here: Path) -> None:
-    make_older_store(database_url)
-    done = together(lambda _: migrate(database_url), 4)
+def test_those_who_migrate_at_once_make_one_backup(empty_url: str, here: Path) -> None:
+    make_older_store(empty_url)
+    done = together(lambda _: migrate(empty_url), 4)
     assert sorted(one.migrated.before for one in done) == ["0006", newest(), newest(), newest()]
     assert [one.backup.name for one in done if one.backup] == [one.name for one in copies(here)]
 
 
 def test_a_store_that_cannot_be_backed_up_is_not_migrated(
-    database_url: str, here: Path, monkeypatch: pytest.MonkeyPatch
+    empty_url: str, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    make_older_store(database_url)
+    make_older_store(empty_url)
     with monkeypatch.context() as patched:
         patched.setattr("waypost_server.db.backup.shutil.which", lambda _: None)
         patched.setattr("waypost_server.db.backup.os.link", unwritable)
-        assert "Nothing was migrated" in run("migrate", "--database", database_url, status=2)
-    assert schema_of(database_url) == "0006"
-    run("migrate", "--no-backup", "--database", database_url)
-    assert (schema_of(database_url), copies(here)) == (newest(), [])
+        assert "Nothing was migrated" in run("migrate", "--database", empty_url, status=2)
+    assert schema_of(empty_url) == "0006"
+    run("migrate", "--no-backup", "--database", empty_url)
+    assert (schema_of(empty_url), copies(here)) == (newest(), [])
 
 
 def unwritable(*_: object) -> None:

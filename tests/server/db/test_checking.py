@@ -132,8 +132,8 @@ def test_a_row_that_refers_to_nothing_is_named(sqlite_url: str) -> None:
     assert "What a row refers to exists." in wrong
 
 
-def test_a_store_that_does_not_exist_is_not_created(database_url: str, tmp_path: Path) -> None:
-    done = CliRunner().invoke(app, ["check", "--database", database_url])
+def test_a_store_that_does_not_exist_is_not_created(empty_url: str, tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, ["check", "--database", empty_url])
     assert (done.exit_code, "There is no store" in done.output) == (2, True), done.output
     assert list(tmp_path.glob("*.db*")) == []
 

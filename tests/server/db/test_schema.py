@@ -38,8 +38,8 @@ def checks(tx: Tx) -> dict[str, int]:
     return {name: n for name, n in counts.items() if n and name in metadata.tables}
 
 
-def test_the_migrations_build_the_tables_the_code_expects(database_url: str) -> None:
-    db = Database(database_url)
+def test_the_migrations_build_the_tables_the_code_expects(empty_url: str) -> None:
+    db = Database(empty_url)
     try:
         assert db.write_now(differences) == []
         expected = {
@@ -51,19 +51,19 @@ def test_the_migrations_build_the_tables_the_code_expects(database_url: str) -> 
         db.close()
 
 
-def test_opening_a_store_again_changes_nothing(database_url: str) -> None:
-    Database(database_url).close()
-    db = Database(database_url)
+def test_opening_a_store_again_changes_nothing(empty_url: str) -> None:
+    Database(empty_url).close()
+    db = Database(empty_url)
     assert db.read_now(lambda tx: tx.conn.execute(text("SELECT version_num FROM alembic_version")).scalars().all()) == [
         "0014"
     ]
     db.close()
 
 
-def test_a_store_from_before_webhooks_opens_with_all_that_it_has(database_url: str) -> None:
-    make_older_store(database_url)
-    migrate(database_url)
-    db = Database(database_url)
+def test_a_store_from_before_webhooks_opens_with_all_that_it_has(empty_url: str) -> None:
+    make_older_store(empty_url)
+    migrate(empty_url)
+    db = Database(empty_url)
     assert db.read_now(users.list_users).users[0].name == "ann"
     wanted = wire.WebhookCreate(url="https://hooks.example.org/")
     made = db.write_now(lambda tx: webhooks.create(tx, wanted, 1, Policy(("hooks.example.org",))))
@@ -71,32 +71,32 @@ def test_a_store_from_before_webhooks_opens_with_all_that_it_has(database_url: s
     db.close()
 
 
-def test_a_store_of_an_older_version_is_only_migrated_on_request(database_url: str) -> None:
-    make_older_store(database_url)
+def test_a_store_of_an_older_version_is_only_migrated_on_request(empty_url: str) -> None:
+    make_older_store(empty_url)
     for _ in range(2):
         with pytest.raises(OlderStore, match=r"schema 0006.*run `waypost migrate --database"):
-            Database(database_url)
-    assert schema_of(database_url) == "0006"
-    assert migrate(database_url).before == "0006"
-    again = migrate(database_url)
-    assert again.before == again.after == schema_of(database_url)
+            Database(empty_url)
+    assert schema_of(empty_url) == "0006"
+    assert migrate(empty_url).before == "0006"
+    again = migrate(empty_url)
+    assert again.before == again.after == schema_of(empty_url)
 
 
-def test_a_store_of_a_newer_version_is_refused_and_left_as_it_is(database_url: str) -> None:
-    db = Database(database_url)
+def test_a_store_of_a_newer_version_is_refused_and_left_as_it_is(empty_url: str) -> None:
+    db = Database(empty_url)
     db.write_now(lambda tx: tx.conn.execute(text("UPDATE alembic_version SET version_num = '9999'")))
     db.close()
     for _ in range(2):
         for use in (Database, migrate):
             with pytest.raises(NewerStore, match="schema 9999, which this version of Waypost does not know"):
-                use(database_url)
+                use(empty_url)
 
 
-def test_servers_that_start_together_migrate_once(database_url: str) -> None:
+def test_servers_that_start_together_migrate_once(empty_url: str) -> None:
     opened: list[Database] = []
 
     def start() -> None:
-        opened.append(Database(database_url))
+        opened.append(Database(empty_url))
 
     threads = [threading.Thread(target=start) for _ in range(4)]
     for thread in threads:
@@ -119,7 +119,7 @@ def test_servers_that_start_together_migrate_once(database_url: str) -> None:
         ("", "is not a database URL"),
     ],
 )
-def test_a_database_url_that_cannot_be_used_is_explained(url: str, reason: str) -> None:
+def test_a_empty_url_that_cannot_be_used_is_explained(url: str, reason: str) -> None:
     with pytest.raises(BadDatabase, match=reason):
         parse(url)
 

@@ -299,12 +299,12 @@ def test_an_account_that_was_used_in_every_way_is_sound_after_its_deletion(servi
     assert sound(database_url)
 
 
-def test_a_store_of_an_earlier_version_knows_which_pictures_its_runs_show(database_url: str) -> None:
-    make_older_store(database_url, "0010")
+def test_a_store_of_an_earlier_version_knows_which_pictures_its_runs_show(empty_url: str) -> None:
+    make_older_store(empty_url, "0010")
     other = frame(png(4))
     shown = json.dumps({"segments": [{"frames": [OWN["hash"]]}]}, separators=(",", ":"))
     replayed = json.dumps({"replay": {"frames": [SHARED["hash"]]}}, separators=(",", ":"))
-    engine = create_engine(parse(database_url))
+    engine = create_engine(parse(empty_url))
     with engine.begin() as conn:
         for picture in (OWN, SHARED, PRACTICE, other):
             row = {"hash": picture["hash"], "png": base64.b64decode(picture["png"])}
@@ -312,12 +312,12 @@ def test_a_store_of_an_earlier_version_knows_which_pictures_its_runs_show(databa
         for statement in OLD_ROWS:
             conn.execute(text(statement), {"shown": shown, "replayed": replayed})
     engine.dispose()
-    migrate(database_url)
-    with in_process(database_url) as service:
+    migrate(empty_url)
+    with in_process(empty_url) as service:
         uses = service.db.read_now(lambda tx: tx.conn.execute(select(tables.frame_uses.c.hash)).scalars().all())
         assert set(uses) == {OWN["hash"], SHARED["hash"]}
         assert service.admin.call("DELETE", "/runs/0123456789ab")["frames"] == 4  # nobody ever showed two of them
-    assert sound(database_url)
+    assert sound(empty_url)
 
 
 OLD_ROWS = (

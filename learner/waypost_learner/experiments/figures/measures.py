@@ -16,7 +16,7 @@ from waypost_learner.experiments.figures.published import (
     Published,
     published,
 )
-from waypost_learner.experiments.figures.statistics import Spread, Track, first_at, spread
+from waypost_learner.experiments.figures.statistics import TRAILING, Spread, Track, first_at, spread
 
 Unit = Literal["%", "units", "hours", "minutes", "samples", "labels", "labels per 1,000 samples", ""]
 
@@ -88,11 +88,15 @@ def success_after(run: RunCurves, episodes: int) -> float:
 
 
 def at_level(run: RunCurves, level: float, column: Column) -> float:
-    """Return a column's value where the success rate first reached a level; infinite if a complete run never did."""
+    """Return a column's value where the success rate first reached a level.
+
+    It is infinite if a complete run never did, and unknown if the run had too few tests for a rate.
+    """
     row = first_at(level, run.test_success, run.success_rate)
-    if row is None:
-        return NEVER if run.complete else UNKNOWN
-    return float(column[row])
+    if row is not None:
+        return float(column[row])
+    has_rate = np.count_nonzero(~np.isnan(run.test_success)) >= TRAILING
+    return NEVER if run.complete and has_rate else UNKNOWN
 
 
 def samples_until_learned(run: RunCurves, subgoal: str) -> float:
@@ -300,13 +304,19 @@ _RATIOS = (
 
 
 def ratios(comparison: Comparison) -> Iterator[Result]:
-    """Yield the ratios of series of a group. Each ratio compares runs with the same seed, which saw the same mazes."""
+    """Yield the ratios of series of a group. Each ratio compares runs with the same seed, which saw the same mazes.
+
+    Of several series of one algorithm, the first is compared: the others are variants. Totals of runs with different
+    numbers of episodes are not compared.
+    """
     group = comparison.group
-    by_algorithm = {series.config.algorithm: series for series in comparison.runs}
+    by_algorithm = {series.config.algorithm: series for series in reversed(list(comparison.runs))}  # the first of each
     for ratio in _RATIOS:
         if ratio.of not in by_algorithm or ratio.to not in by_algorithm:
             continue
         above, below = by_algorithm[ratio.of], by_algorithm[ratio.to]
+        if len({run.config.episodes for series in (above, below) for run in comparison.runs[series]}) > 1:
+            continue
         amounts = [
             {run.config.seed: ratio.amount(run, group.labels_only) for run in comparison.runs[series]}
             for series in (above, below)
