@@ -7,7 +7,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import dataclass, field
 
 import httpx2
@@ -15,9 +15,11 @@ from sqlalchemy import select
 from tests.server.kit import API, Json, in_process, query
 
 from waypost_server.db import audit, checking
-from waypost_server.db.engine import Database
+from waypost_server.db.engine import BadDatabase, Database
+from waypost_server.db.schema import WrongSchema
 from waypost_server.db.tables import answers, ledger
 from waypost_server.db.transaction import Tx
+from waypost_server.errors import StorageFailed
 
 BODY_BYTES = 8_000  # of a query: so large that the write-ahead log is checkpointed often
 PATIENCE_SECONDS = 20
@@ -148,18 +150,20 @@ def proof(url: str, told: Told, position: int | None = None) -> Counter[str]:
         position: where the disk's log ended for this store; by default, all has happened that clients were told.
 
     Returns:
-        How many acknowledged answers are lost or charged twice, and the number of faults by fact of `waypost check`.
+        How many acknowledged answers are lost or charged twice, and the number of faults by fact of
+        `waypost check`. If the store cannot be read, all are lost, and the fault is the error.
     """
     wrong: Counter[str] = Counter()
-    db = Database(url)
+    head = told.head(position)
+    noted = None if head is None else audit.Head(int(head.partition(":")[0]), head.partition(":")[2])
+    stored: dict[int, list[str]] = {}
     try:
-        head = told.head(position)
-        noted = None if head is None else audit.Head(int(head.partition(":")[0]), head.partition(":")[2])
-        for result in db.read_now(lambda tx: checking.check(tx, noted)):
-            wrong[result.fact] += result.n_faults
-        stored = db.read_now(_charged)
-    finally:
-        db.close()
+        with closing(Database(url)) as db:
+            for result in db.read_now(lambda tx: checking.check(tx, noted)):
+                wrong[result.fact] += result.n_faults
+            stored = db.read_now(_charged)
+    except (BadDatabase, WrongSchema, StorageFailed) as error:
+        wrong[str(error)] += 1
     for answer in told.acknowledged(position):
         verdicts = stored.get(answer.assignment, [])
         wrong["lost"] += answer.body["answer"]["verdict"] not in verdicts

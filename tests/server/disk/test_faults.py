@@ -88,14 +88,14 @@ def becomes(client: httpx2.Client, status: int) -> bool:
 
 
 def test_answers_are_stored_while_the_log_cannot_be_copied_into_the_store(recording: Recording) -> None:
-    people = recording.fill(150, N_ANNOTATORS)
+    people = recording.fill(60, N_ANNOTATORS)
     with recording.serving() as server:
         recording.disk.fail(errno.EIO, Call.WRITE | Call.SYNC, File.STORE)
-        recording.answer(server, people, SEED, 20)
+        recording.answer(server, people, SEED, 14)
         assert recording.disk.failed > 0
-        assert (recording.told.statuses[503], len(recording.told.acknowledged())) == (0, 20 * N_ANNOTATORS)
+        assert (recording.told.statuses[503], len(recording.told.acknowledged())) == (0, 14 * N_ANNOTATORS)
         recording.disk.heal()
-        recording.answer(server, people, SEED + 1, 10)
+        recording.answer(server, people, SEED + 1, 3)
         assert File.STORE in {one.file for one in recording.disk.records() if one.call is Call.SYNC and not one.failed}
         end(recording, server, 61)
 

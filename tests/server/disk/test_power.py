@@ -36,7 +36,7 @@ def test_what_was_acknowledged_before_a_power_loss_is_kept_and_charged_once(reco
 
 
 def test_on_a_disk_that_ignores_the_syncs_of_the_log_answers_are_lost(recording: Recording) -> None:
-    careless = recording.losses(SEED, step=15, without=(Call.SYNC, File.WAL))
+    careless = recording.losses(SEED, step=12, without=(Call.SYNC, File.WAL))
     assert recording.wrong(careless)["lost"] > 0
 
 
@@ -54,7 +54,7 @@ def test_a_power_loss_while_a_store_is_created_leaves_none_or_a_sound_one(tmp_pa
     environment = {**os.environ, **recording.disk.environment}
     subprocess.run(command, env=environment, check=True, stdout=subprocess.DEVNULL)
     assert {File.JOURNAL, File.WAL} <= {one.file for one in recording.disk.records()}
-    assert recording.wrong(recording.losses(SEED, step=3)) == Counter()
+    assert recording.wrong(recording.losses(SEED, step=5)) == Counter()
 
 
 def happened(*calls: tuple[Call, bytes]) -> list[Record]:
