@@ -98,6 +98,14 @@ def _check_segment(segment: wire.Segment, names: Names, at: Location) -> None:
             [*at, "frames"],
             f"has {len(segment.frames)} frames for {n_states} states; send one frame per state, or none",
         )
+    if len(segment.landmarks) not in (0, 1, n_states):
+        raise Unprocessable(
+            [*at, "landmarks"],
+            f"has {len(segment.landmarks)} entries for {n_states} states; send one per state, one for all, or none",
+        )
+    for place, boxes in enumerate(segment.landmarks):
+        for name in boxes:
+            names.check_subgoal(name, [*at, "landmarks", place])
     names.check_actions(segment.actions, [*at, "actions"])
     if segment.subgoal is not None:
         names.check_subgoal(segment.subgoal, [*at, "subgoal"])

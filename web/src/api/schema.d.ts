@@ -2487,6 +2487,20 @@ export interface components {
             answer: components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
         };
         /**
+         * Box
+         * @description A box in a picture. Its sides are shares of the picture's width and height, from the upper left corner.
+         */
+        Box: {
+            /** Left */
+            left: number;
+            /** Top */
+            top: number;
+            /** Right */
+            right: number;
+            /** Bottom */
+            bottom: number;
+        };
+        /**
          * Change
          * @description A server-sent event: something changed in some run.
          */
@@ -4996,6 +5010,13 @@ export interface components {
              * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
             frames?: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks?: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
         };
         /**
          * Segment
@@ -5022,6 +5043,13 @@ export interface components {
              * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
             frames: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
         };
         /**
          * SendBack
@@ -5543,6 +5571,13 @@ export interface components {
              * @description One uploaded picture per state; empty if the web app draws the states itself.
              */
             frames: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
             /**
              * Ended
              * @description Whether the episode ended in the last state; later actions have no state.
