@@ -2783,6 +2783,13 @@ export interface components {
              * @description One uploaded picture per state, or none.
              */
             frames?: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks?: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
         };
         /**
          * DemoReplay
@@ -2799,6 +2806,13 @@ export interface components {
              * @description One uploaded picture per state, or none.
              */
             frames: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
         };
         /**
          * DemoSegment

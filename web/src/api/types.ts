@@ -11,6 +11,7 @@ export type AnswerOf<K extends Answer['kind']> = Extract<Answer, { kind: K }>;
 export type AssignedRun = Schemas['AssignedRun'];
 export type Assignment = Schemas['Assignment'];
 export type DemoSegment = Schemas['DemoSegment'];
+export type Box = Schemas['Box'];
 export type Costs = Schemas['Costs'];
 export type Curves = Schemas['Curves'];
 export type Forecast = Schemas['Forecast'];
