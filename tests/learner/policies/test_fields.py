@@ -99,9 +99,7 @@ def test_ends_of_subgoals_are_looked_for_as_far_away_as_subgoals_ended_so_far() 
     assert learner.shared.acting.reach == network.reach
     assert network.reach == max(moved(one) for instance in TRAIN[:3] for one in demonstrated(instance))
     for segment in demonstrated(TRAIN[500]):
-        network.look_as_far_as(
-            *(as_input(one.observation[None]) for one in (segment.start, segment.states[-1]))
-        )
+        network.look_as_far_as(*(as_input(one.observation[None]) for one in (segment.start, segment.states[-1])))
         assert network.reach == moved(segment)
     told = taught(briefly(1, fields=FieldSpec(reach=2)), 3)
     assert told.shared is not None

@@ -55,7 +55,7 @@ def test_opening_a_store_again_changes_nothing(database_url: str) -> None:
     Database(database_url).close()
     db = Database(database_url)
     assert db.read_now(lambda tx: tx.conn.execute(text("SELECT version_num FROM alembic_version")).scalars().all()) == [
-        "0013"
+        "0014"
     ]
     db.close()
 
