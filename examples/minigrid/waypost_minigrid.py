@@ -152,6 +152,12 @@ def picture(env: gymnasium.Env[Any, Any]) -> Any:
     return image
 
 
+def landmarks(state: State) -> dict[str, Any]:
+    """Return where the key, the door and the box are in the picture, which shows 11 x 6 cells."""
+    cells = {subgoal: state[thing] for subgoal, thing in OBJECTS.items() if state[thing] is not None}
+    return {g: (column / 11, row / 6, (column + 1) / 11, (row + 1) / 6) for g, (column, row) in cells.items()}
+
+
 unlock_pickup = waypost.domain(
     lambda: Egocentric(gymnasium.make("MiniGrid-UnlockPickup-v0", render_mode="rgb_array", highlight=False)),
     tuple(SUBGOALS),
@@ -164,4 +170,5 @@ unlock_pickup = waypost.domain(
     good_subgoals=good_subgoals,
     good_actions=good_actions,
     picture=picture,
+    landmarks=landmarks,
 )

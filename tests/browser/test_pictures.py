@@ -1,22 +1,23 @@
 """A domain without a renderer: a real learner's run of it is answered in the page, by the pictures it sends."""
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Page, Route, expect
+from playwright.sync_api import Locator, Page, Route, expect
+from tests.browser.access.axe import violations_in_every_look
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, wait_for_heading
 from tests.learner.kit import corridor
 
 from waypost import wire
 from waypost.client import Client
-from waypost.trajectory import Segment
-from waypost_learner.algorithms.queries import LabelHi
+from waypost.trajectory import Segment, Trajectory
+from waypost_learner.algorithms.queries import InspectLo, LabelHi, LabelLo, Query
 from waypost_learner.domains.corridor import Corridor, CorridorDomain
 from waypost_learner.remote.camera import Camera
 from waypost_learner.remote.connection import Connection
@@ -111,8 +112,8 @@ def test_a_run_of_a_domain_without_a_renderer_is_answered_in_the_page(
     assert training.ended[0]["episodes"] == 2
 
 
-def ask_label_hi(client: Client) -> str:
-    """Ask which subgoals were right on a way east and back, with pictures; return the run."""
+def ask_with_pictures(client: Client, query_of: Callable[[Trajectory], Query]) -> tuple[int, str]:
+    """Ask about a way east and back, with pictures; return the query and its run."""
     domain, instance = CorridorDomain(), Corridor(2, 8)
     simulator = Simulator(domain)
     state, sigma = simulator.reset(instance), []
@@ -121,11 +122,26 @@ def ask_label_hi(client: Client) -> str:
         sigma.append(Segment(subgoal, tuple(states), actions, terminated=True))
         state = states[-1]
     camera = Camera(domain, instance)
-    asked = Translator(domain, instance, camera).ask(LabelHi(tuple(sigma)), 0, 0)
+    asked = Translator(domain, instance, camera).ask(query_of(tuple(sigma)), 0, 0)
     client.upload(camera.developed())
     run = client.create_run(wire.RunCreate(name="seen", algorithm="hg-dagger", seed=0, vocabulary=vocabulary(domain)))
-    client.ask(run.id, [asked])
-    return run.id
+    [query] = client.ask(run.id, [asked])
+    return query.id, run.id
+
+
+def ask_label_hi(client: Client) -> str:
+    """Ask which subgoals were right on this way; return the run."""
+    return ask_with_pictures(client, LabelHi)[1]
+
+
+def steps(page: Page) -> Locator:
+    """The stills on the film strip."""
+    return page.get_by_role("list", name="Steps").get_by_role("listitem")
+
+
+def box(page: Page, subgoal: str) -> Locator:
+    """The box of a subgoal in the picture."""
+    return page.get_by_role("button", name=f"Choose the subgoal {subgoal}")
 
 
 def test_pictures_show_where_each_subgoal_was_decided(open_page: Open, served: Served) -> None:
@@ -133,9 +149,12 @@ def test_pictures_show_where_each_subgoal_was_decided(open_page: Open, served: S
         run = ask_label_hi(client)
     page = open_page(f"/work?run={run}")
     wait_for_heading(page, LABEL_HI)
-    strip = page.get_by_role("list", name="Where each subgoal was chosen").get_by_role("listitem")
-    expect(strip).to_have_text(["1E", "2W", "3T"])
+    strip = steps(page)
+    marks = strip.locator("abbr")
+    expect(marks).to_have_text(["1E", "2W", "3T"])
+    expect(strip).to_have_count(4)  # and the second state of the current segment
     page.keyboard.press("ArrowDown")
+    expect(strip).to_have_count(5)
     expect(strip.nth(1)).to_have_attribute("aria-current", "step")
     assert agents_cell(page) == 4
     size = strip.first.get_by_role("presentation").bounding_box()
@@ -143,10 +162,79 @@ def test_pictures_show_where_each_subgoal_was_decided(open_page: Open, served: S
     assert size["height"] >= 72
     page.keyboard.press("?")
     help_ = page.get_by_role("dialog", name="Keys")
-    expect(help_).to_contain_text("Under the picture are the states where a subgoal was chosen.")
+    expect(help_).to_contain_text("Under the picture are the states where a subgoal was chosen, and the steps")
     expect(help_).not_to_contain_text("ring")
     page.keyboard.press("Escape")
     page.keyboard.press("Shift+Enter")
+
+
+def test_a_click_in_a_box_chooses_its_subgoal_and_one_on_the_strip_goes_there(
+    open_page: Open, served: Served, learner: Learner
+) -> None:
+    with client_of(served) as client:
+        query, run = ask_with_pictures(client, LabelHi)
+    page = open_page(f"/work?run={run}", motion="reduce")
+    wait_for_heading(page, LABEL_HI)
+    box(page, "east").click()
+    expect(page.get_by_text("1 of 3")).to_be_visible()
+    steps(page).nth(4).get_by_role("button").click()  # where the third subgoal was chosen
+    expect(page.locator("li [aria-current=step]")).to_contain_text("3")
+    assert agents_cell(page) == 1
+    shown = page.locator("img.shown").bounding_box()
+    target = box(page, "target").bounding_box()
+    assert shown is not None
+    assert target is not None
+    assert target["x"] - shown["x"] == pytest.approx(shown["width"] * 8 / 13, abs=1)
+    box(page, "target").click()
+    expect(page.get_by_role("list", name="Places of subgoals").get_by_role("button", pressed=True)).to_have_text("T")
+    assert violations_in_every_look(page) == []
+    page.keyboard.press("Shift+Enter")
+    assert learner.answer_of(query)["subgoals"] == ["east", "west", "target"]
+
+
+def test_boxes_are_only_looked_at_where_no_subgoal_is_asked_for(open_page: Open, served: Served) -> None:
+    with client_of(served) as client:
+        _, run = ask_with_pictures(client, lambda sigma: InspectLo(sigma[1], sigma[:1]))
+    page = open_page(f"/work?run={run}", motion="reduce")
+    wait_for_heading(page, "It tried “west”. Did that work?")
+    places = page.get_by_role("list", name="Places of subgoals")
+    expect(places.locator(".asked abbr")).to_have_text("W")
+    expect(places.get_by_role("button")).to_have_count(0)
+    steps(page).nth(2).get_by_role("button").click()
+    assert agents_cell(page) == 3
+    assert violations_in_every_look(page) == []
+
+
+def test_a_click_on_the_strip_marks_the_first_wrong_step(open_page: Open, served: Served, learner: Learner) -> None:
+    with client_of(served) as client:
+        query, run = ask_with_pictures(client, lambda sigma: LabelLo(sigma[1], sigma[:1]))
+    page = open_page(f"/work?run={run}", motion="reduce")
+    wait_for_heading(page, "It tried “west”. What should it have done at each step?")
+    strip = steps(page)
+    expect(strip).to_have_count(5)  # the earlier segment's start, and four states
+    strip.nth(3).get_by_role("button").click()
+    expect(page.get_by_text("2 of 4")).to_be_visible()
+    expect(strip.nth(2)).to_contain_text("west")  # the label, under the picture
+    assert agents_cell(page) == 2
+    strip.nth(1).get_by_role("button").click()  # it is labeled, so this only goes there
+    expect(page.get_by_text("2 of 4")).to_be_visible()
+    strip.nth(3).get_by_role("button").click()
+    assert violations_in_every_look(page) == []
+    page.get_by_role("group", name="Action at state").get_by_role("button", name="east").click()
+    page.keyboard.press("Shift+Enter")
+    assert learner.answer_of(query)["actions"] == ["west", "west", "east"]
+
+
+def test_the_strip_is_walked_by_keyboard(open_page: Open, served: Served) -> None:
+    with client_of(served) as client:
+        _, run = ask_with_pictures(client, lambda sigma: InspectLo(sigma[1], sigma[:1]))
+    page = open_page(f"/work?run={run}", motion="reduce")
+    wait_for_heading(page, "It tried “west”. Did that work?")
+    steps(page).last.get_by_role("button").focus()
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("ArrowLeft")
+    expect(steps(page).nth(2).get_by_role("button")).to_be_focused()
+    assert agents_cell(page) == 3
 
 
 def test_a_picture_that_does_not_load_gives_way_to_the_state_as_text(

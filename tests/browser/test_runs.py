@@ -6,10 +6,13 @@ from xml.etree import ElementTree
 
 import pytest
 from playwright.sync_api import expect
+from sqlalchemy import update
+from tests.browser.access.axe import violations_in_every_look
 from tests.browser.conftest import Open
 from tests.browser.kit import Complaints, Learner, ask, log_in, wait_for_heading
 
 from waypost import wire
+from waypost_server.db.tables import queries
 from waypost_server.serving import Served
 
 WHY_BACK = "The second step east leads into the lava."
@@ -374,3 +377,19 @@ def test_an_answer_is_found_sent_back_and_read_by_its_annotator(
     back = worker.get_by_role("region", name="Answers that came back")
     expect(back).to_contain_text(WHY_BACK)
     expect(back).to_contain_text("to review")
+
+
+def test_what_is_stuck_is_listed_with_the_reason_and_a_link(open_page: Open, learner: Learner, served: Served) -> None:
+    run = learner.create_run("stuck")
+    [asked] = learner.ask(run, ask("inspect_full"))
+    page = open_page(f"/runs/{run}", role="viewer")
+    expect(page.get_by_role("heading", name="Recent queries")).to_be_visible()
+    expect(page.get_by_role("heading", name="What is stuck")).to_have_count(0)
+    earlier = update(queries).where(queries.c.id == asked).values(created_at=queries.c.created_at - 3_600)
+    served.db.write_now(lambda tx: tx.conn.execute(earlier))
+    page.reload()
+    stuck = page.get_by_role("region", name="What is stuck: 1")
+    expect(stuck.get_by_role("listitem")).to_contain_text("nobody has taken it for 1 h 0 min")
+    assert violations_in_every_look(page) == []
+    stuck.get_by_role("link").click()
+    expect(page).to_have_url(re.compile(rf"/runs/{run}/queries/{asked}$"))

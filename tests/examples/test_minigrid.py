@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.examples.kit import success_after
 from tests.learner.kit import examples
-from waypost_minigrid import good_actions, good_subgoals, reached, state, succeeded, unlock_pickup
+from waypost_minigrid import OBJECTS, good_actions, good_subgoals, reached, state, succeeded, unlock_pickup
 
 from waypost_learner.experts.oracle import OracleExpert
 from waypost_learner.rollout.simulator import Simulator
@@ -26,6 +26,23 @@ def demonstrated_actions(seed: int) -> list[int]:
     """The actions of the oracle's demonstration."""
     demonstration = OracleExpert(unlock_pickup).demonstrate(seed, Simulator(unlock_pickup).reset(seed).view)
     return [unlock_pickup.actions.index(action) for one in demonstration.segments for action in one.actions]
+
+
+@examples
+@given(seeds, actions)
+def test_a_landmark_frames_its_object_in_the_picture(seed: int, actions: list[int]) -> None:
+    env: Any = unlock_pickup.make_env()
+    env.reset(options={"instance": seed})
+    for action in actions:
+        env.step(np.int64(action))
+    base = env.unwrapped.inner.unwrapped
+    rows, columns, _ = unlock_pickup.frame(env).shape
+    assert columns / rows == base.width / base.height
+    boxes = unlock_pickup.landmarks(seed, unlock_pickup.state_view(env))
+    framed = {g: base.grid.get(round(box[0] * base.width), round(box[1] * base.height)) for g, box in boxes.items()}
+    things = [OBJECTS.get(name) for name in unlock_pickup.subgoals]
+    assert all(thing.type == things[g] for g, thing in framed.items())
+    assert len(framed) == sum(one is not None and one.type in things for one in base.grid.grid)
 
 
 @examples

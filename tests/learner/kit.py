@@ -194,7 +194,7 @@ def corridor(**values: Any) -> TrainConfig:
 def history(client: Client, run: str) -> list[tuple[Any, ...]]:
     """All that was asked (its pictures aside), answered and charged in a run, by episode and ordinal."""
     found, cursor = [], 0
-    pictures: Any = {part: {"__all__": {"frames"}} for part in ("segments", "context")}
+    pictures: Any = {part: {"__all__": {"frames", "landmarks"}} for part in ("segments", "context")}
     while (page := client.answers(run, cursor)).queries:
         cursor = page.cursor
         found += [

@@ -15,8 +15,8 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from waypost.domains import Horizons, InstanceSets, Symmetry
-from waypost.trajectory import Outcome
+from waypost.domains import Box, Horizons, InstanceSets, Symmetry
+from waypost.trajectory import Outcome, Subgoal
 
 CELLS = 13
 OBSERVED = CELLS + 2 * CELLS - 1  # numbers in an observation
@@ -181,6 +181,16 @@ class CorridorDomain:
         cells[9:-9, env.unwrapped.corridor.target, 9:-9] = FLOOR
         cells[13:-13, env.unwrapped.cell, 13:-13] = AGENT
         return cells.reshape(PIXELS, CELLS * PIXELS, 3)
+
+    def landmarks(self, instance: Any, state: Any) -> dict[Subgoal, Box]:
+        """Return the boxes of the next doors and of the target in the picture; there is no door beyond the ends."""
+        doors = range(0, CELLS, DOOR_SPACING)
+        cells = {
+            WEST: max((door for door in doors if door < state), default=None),
+            EAST: min((door for door in doors if door > state), default=None),
+            TARGET: instance["target"],
+        }
+        return {g: (cell / CELLS, 0, (cell + 1) / CELLS, 1) for g, cell in cells.items() if cell is not None}
 
     def succeeded(self, env: Any) -> bool:
         """Return whether the agent is on the target."""

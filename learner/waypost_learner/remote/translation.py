@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from waypost import wire
-from waypost.domains import Domain, renderer_of, replay_of
+from waypost.domains import Box, Domain, Landmarked, renderer_of, replay_of
 from waypost.trajectory import Segment, State, Trajectory
 from waypost_learner.algorithms.queries import (
     Answer,
@@ -126,6 +126,15 @@ class Translator:
             case wire.LabelFullAnswer():
                 return tuple(self.domain.actions.index(a) for a in answer.actions)
 
+    def landmarks(self, states: Sequence[State]) -> list[dict[str, wire.Box]]:
+        """Return where subgoals are in the pictures of states: an entry per state, or one if all are the same."""
+        if not isinstance(self.domain, Landmarked):
+            return []
+        instance = self.domain.instance_view(self.instance)
+        found = [self.domain.landmarks(instance, state.view) for state in states]
+        boxes = [{self.domain.subgoals[g]: _box(box) for g, box in one.items()} for one in found]
+        return boxes[:1] if all(one == boxes[0] for one in boxes) else boxes
+
     def _replay(self, segments: Sequence[wire.DemoSegment]) -> Trajectory:
         """Return a demonstration with the observations along it. Actions after the end of the episode are ignored."""
         states = self._states([self.domain.actions.index(action) for one in segments for action in one.actions])
@@ -170,6 +179,7 @@ class Translator:
                 states=[state.view for state in s.states],
                 actions=list(self._actions(s.actions)),
                 frames=pictures,
+                landmarks=self.landmarks(s.states) if pictures else [],
             )
             for s, pictures in zip(segments, frames, strict=True)
         ]
@@ -183,3 +193,8 @@ class Translator:
 
     def _actions(self, actions: Sequence[int]) -> Sequence[str]:
         return [self.domain.actions[a] for a in actions]
+
+
+def _box(box: Box) -> wire.Box:
+    left, top, right, bottom = box
+    return wire.Box(left=left, top=top, right=right, bottom=bottom)

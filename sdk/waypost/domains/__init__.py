@@ -4,6 +4,7 @@ from waypost.domains.contract import Domain, Horizons, InstanceSets
 from waypost.domains.failures import DomainFailed
 from waypost.domains.find import find_domain, installed, place_of
 from waypost.domains.parts import (
+    Box,
     Centered,
     Computed,
     Cropped,
@@ -11,6 +12,7 @@ from waypost.domains.parts import (
     FlatRelabeled,
     FlatRelabeling,
     Grid,
+    Landmarked,
     Oracle,
     Pictured,
     Placed,
@@ -37,6 +39,7 @@ from waypost.domains.parts import (
 )
 
 __all__ = [
+    "Box",
     "Centered",
     "Computed",
     "Cropped",
@@ -48,6 +51,7 @@ __all__ = [
     "Grid",
     "Horizons",
     "InstanceSets",
+    "Landmarked",
     "Oracle",
     "Pictured",
     "Placed",

@@ -13,7 +13,7 @@ import numpy as np
 from waypost.domains.adapter import AdaptedEnv, Env, action_table, observer
 from waypost.domains.contract import Horizons, InstanceSets
 from waypost.domains.named import NamedOracle, Rules, number_of
-from waypost.domains.parts import Replay
+from waypost.domains.parts import Box, Replay
 from waypost.trajectory import Observation, Outcome, Subgoal
 
 State = Any
@@ -48,6 +48,8 @@ class EnvironmentDomain:
         good_actions: returns every optimal action toward a subgoal, given the state where it was chosen and a state.
         successor: returns the state after an action.
         picture: returns a picture uint8[rows, columns, 3]. If None, the environment's own `rgb_array`, if it has one.
+        landmarks: returns where subgoals are in the picture of a state: by subgoal, the left, upper, right and lower
+            side of a box, as shares of the picture's width and height.
         instances: the instances to train on and to test on, by "train" and "test". An instance is a seed, or the
             keyword arguments of `reset`, as JSON. If None, 10,000 seeds for training and 1,000 other seeds for tests.
         snapshot: returns the whole state of the environment; if None, what `state` returns.
@@ -75,6 +77,7 @@ class EnvironmentDomain:
         good_actions: Callable[[State, State, str], Sequence[str]] | None = None,
         successor: Callable[[State, str], State] | None = None,
         picture: Callable[[Env], Any] | None = None,
+        landmarks: Callable[[State], Mapping[str, Box]] | None = None,
         instances: Mapping[str, Sequence[Any]] | None = None,
         snapshot: Callable[[Env], Any] | None = None,
         restore: Callable[[Env, Any], None] | None = None,
@@ -103,6 +106,9 @@ class EnvironmentDomain:
         self._snapshot, self._restore = snapshot, restore
         if restore is not None:
             self.restore = self._restored
+        if landmarks is not None:
+            self._landmarks = landmarks
+            self.landmarks = self._boxes
         if reached is not None:
             self.outcome = self._outcome
         rules = Rules(reached, succeeded, good_subgoals, good_actions, successor or self._simulated(snapshot, restore))
@@ -154,6 +160,10 @@ class EnvironmentDomain:
 
     def _frame(self, env: Any) -> Any:
         return self._picture(env.unwrapped.inner)
+
+    def _boxes(self, instance: Any, state: Any) -> Mapping[Subgoal, Box]:
+        del instance
+        return {number_of(name, self.subgoals, "subgoal"): box for name, box in self._landmarks(state).items()}
 
     def _outcome(self, instance: Any, origin: Any, state: Any, subgoal: Subgoal) -> Outcome | None:
         del instance

@@ -4,7 +4,7 @@ Each part is a small protocol. A domain provides a part if it has the members of
 part that the domain does not provide, `waypost train` says so and the run's configuration keeps what was used instead.
 """
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, Protocol, get_args, runtime_checkable
@@ -86,6 +86,18 @@ class Pictured(Protocol):
 
     def frame(self, env: gymnasium.Env[Any, Any]) -> NDArray[np.uint8]:
         """Return a picture of the current state of `env`, uint8[rows, columns, 3], at most 4,096 pixels per side."""
+
+
+Box = tuple[float, float, float, float]
+"""The left, upper, right and lower side of a box in a picture, as shares of its width and height: 0 to 1."""
+
+
+@runtime_checkable
+class Landmarked(Protocol):
+    """A domain whose pictures show where subgoals are. The web app frames them, and a click there chooses one."""
+
+    def landmarks(self, instance: Any, state: Any) -> Mapping[Subgoal, Box]:
+        """Return the boxes of the subgoals that have a place in the picture of a state; both are JSON views."""
 
 
 @runtime_checkable

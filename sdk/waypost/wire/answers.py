@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from waypost.wire.frames import Landmarks
 from waypost.wire.words import FrameHash, Json, Message, Name, Verdict
 
 __all__ = [
@@ -34,6 +35,7 @@ class DemoReplay(Message):
     frames: list[FrameHash] = Field(
         default_factory=list, max_length=10_001, description="One uploaded picture per state, or none."
     )
+    landmarks: Landmarks = Field(default_factory=list)
 
 
 class HierDemoAnswer(Message):

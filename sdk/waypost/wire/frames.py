@@ -1,13 +1,17 @@
-"""Defines the messages about frames: pictures of states, for domains without a renderer in the web app."""
+"""Defines the messages about frames, the pictures of states, and about landmarks, the places of subgoals in them."""
 
-from pydantic import Field
+from typing import Annotated
 
-from waypost.wire.words import FrameHash, Message
+from pydantic import Field, model_validator
+
+from waypost.wire.words import FrameHash, Message, Name, Share
 
 __all__ = [
+    "Box",
     "Frame",
     "FrameHashes",
     "FrameUpload",
+    "Landmarks",
 ]
 
 
@@ -30,3 +34,28 @@ class FrameHashes(Message):
     """Hashes of frames, sent by a learner to ask which frames are missing, and by the server as the reply."""
 
     hashes: list[FrameHash] = Field(max_length=10_000)
+
+
+class Box(Message):
+    """A box in a picture. Its sides are shares of the picture's width and height, from the upper left corner."""
+
+    left: Share
+    top: Share
+    right: Share
+    bottom: Share
+
+    @model_validator(mode="after")
+    def _is_not_empty(self) -> "Box":
+        if self.left >= self.right or self.top >= self.bottom:
+            raise ValueError("a box needs left < right and top < bottom")
+        return self
+
+
+Landmarks = Annotated[
+    list[dict[Name, Box]],
+    Field(
+        max_length=10_001,
+        description="Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; "
+        "empty if that is not known. Landmarks are not part of the query's content.",
+    ),
+]

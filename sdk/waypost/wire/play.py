@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from waypost.wire.answers import DemoSegment
+from waypost.wire.frames import Landmarks
 from waypost.wire.words import FrameHash, Json, Message
 
 __all__ = [
@@ -65,6 +66,7 @@ class PlayStates(Message):
         max_length=10_001,
         description="One uploaded picture per state; empty if the web app draws the states itself.",
     )
+    landmarks: Landmarks = Field(default_factory=list)
     ended: bool = Field(description="Whether the episode ended in the last state; later actions have no state.")
     succeeded: bool = Field(description="Whether the whole task is accomplished in the last state.")
 

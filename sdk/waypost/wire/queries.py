@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from waypost.wire.answers import Answer
+from waypost.wire.frames import Landmarks
 from waypost.wire.words import FrameHash, Json, Message, Name, QueryState
 
 __all__ = [
@@ -37,6 +38,7 @@ class Segment(Message):
         description="One uploaded picture per state; empty if the web app draws the states itself. Pictures are not "
         "part of the query's content: the same query with other pictures is the same query.",
     )
+    landmarks: Landmarks = Field(default_factory=list)
 
 
 class AskBase(Message):

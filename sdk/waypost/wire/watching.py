@@ -27,10 +27,14 @@ __all__ = [
     "QueryPage",
     "QueryRow",
     "RunOutlook",
+    "Stuck",
+    "StuckQuery",
+    "StuckReason",
 ]
 
 AssignmentState = Literal["live", "answered", "skipped", "released", "expired", "cancelled"]
 LedgerEntryKind = Literal["charge", "refund"]
+StuckReason = Literal["waiting", "expired", "skipped"]
 ExportTable = Literal["curves", "ledger", "queries"]
 ExportFormat = Literal["csv", "jsonl"]
 
@@ -194,3 +198,26 @@ class Change(Message):
     """A server-sent event: something changed in some run."""
 
     newest: int = Field(description="The id of the newest event of all runs.")
+
+
+class StuckQuery(Message):
+    """A query that is stuck, and why."""
+
+    query: int = Field(description="The id of the query.")
+    episode: int
+    kind: Kind
+    reasons: list[StuckReason] = Field(
+        description="waiting: it has been open for more than 10 minutes. expired: two or more of its leases expired. "
+        "skipped: every annotator of the last day who takes queries of its run and kind has skipped it."
+    )
+    open_since: float = Field(
+        description="When it was asked, or when the last lease of it ended, in seconds since the epoch."
+    )
+    expiries: int = Field(description="How many leases of the query expired.")
+
+
+class Stuck(Message):
+    """The queries of a run that are stuck, oldest first, sent by the server."""
+
+    queries: list[StuckQuery] = Field(description="The first 20.")
+    total: int = Field(description="How many there are.")

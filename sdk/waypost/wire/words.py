@@ -19,6 +19,7 @@ __all__ = [
     "RunState",
     "Scope",
     "SecondShare",
+    "Share",
     "Units",
     "Verdict",
 ]
@@ -57,6 +58,7 @@ SecondShare = Annotated[
     ),
 ]
 Units = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 FrameHash = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$", description="The SHA-256 of a PNG file, in hexadecimal.")]
 
 

@@ -99,6 +99,7 @@ ACCESS: Mapping[str, Access] = {
     "getQuery": _WATCH,
     "getHistory": _WATCH,
     "listQueryRows": _WATCH,
+    "listStuck": _WATCH,
     "listAnswers": _WATCH,
     "listLedger": _WATCH,
     "listRecords": _WATCH,

@@ -303,7 +303,7 @@ presence = Table(
     Column("user_id", RowId, ForeignKey("users.id"), primary_key=True),
     Column("run_id", Text, ForeignKey("runs.id")),
     Column("kinds", Text),
-    Column("asked_at", Float, nullable=False),
+    Column("asked_at", Float, nullable=False, index=True),
 )
 
 # Each annotator's active seconds since their last answer.

@@ -64,10 +64,19 @@ def others(tx: Tx, user: int, run: str | None, seconds: float) -> int:
 
 def takes() -> ColumnElement[bool]:
     """Return the condition that the annotator in a row of `presence` accepts a query."""
-    skipped = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == presence.c.user_id)
+    return and_(~has_skipped(), accepts())
+
+
+def has_skipped() -> ColumnElement[bool]:
+    """Return the condition that the annotator in a row of `presence` has skipped a query."""
+    by_them = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == presence.c.user_id)
+    return by_them.correlate(queries, presence)  # both, also where only one of them is in the enclosing statement
+
+
+def accepts() -> ColumnElement[bool]:
+    """Return the condition that the annotator in a row of `presence` asked for the kind and run of a query, or any."""
     kinds = literal(",") + presence.c.kinds + ","
     return and_(
-        ~skipped,
         or_(presence.c.run_id.is_(None), presence.c.run_id == queries.c.run_id),
         or_(presence.c.kinds.is_(None), kinds.like("%," + queries.c.kind + ",%")),
     )

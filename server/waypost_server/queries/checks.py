@@ -98,9 +98,20 @@ def _check_segment(segment: wire.Segment, names: Names, at: Location) -> None:
             [*at, "frames"],
             f"has {len(segment.frames)} frames for {n_states} states; send one frame per state, or none",
         )
+    _check_landmarks(segment.landmarks, n_states, names, [*at, "landmarks"])
     names.check_actions(segment.actions, [*at, "actions"])
     if segment.subgoal is not None:
         names.check_subgoal(segment.subgoal, [*at, "subgoal"])
+
+
+def _check_landmarks(landmarks: wire.Landmarks, n_states: int, names: Names, at: Location) -> None:
+    if len(landmarks) not in (0, 1, n_states):
+        raise Unprocessable(
+            at, f"has {len(landmarks)} entries for {n_states} states; send one per state, one for all, or none"
+        )
+    for place, boxes in enumerate(landmarks):
+        for name in boxes:
+            names.check_subgoal(name, [*at, place])
 
 
 def _check_demonstration(ask: wire.AskHierDemo, answer: wire.HierDemoAnswer, names: Names, at: Location) -> None:
@@ -121,6 +132,7 @@ def _check_demonstration(ask: wire.AskHierDemo, answer: wire.HierDemoAnswer, nam
     if answer.replay is not None:
         _check_length_or_none(answer.replay.states, total + 1, [*at, "replay", "states"])
         _check_length_or_none(answer.replay.frames, total + 1, [*at, "replay", "frames"])
+        _check_landmarks(answer.replay.landmarks, total + 1, names, [*at, "replay", "landmarks"])
 
 
 def _check_length_or_none(given: Sequence[object], length: int, at: Location) -> None:

@@ -72,11 +72,11 @@ class Content:
 
     @classmethod
     def of(cls, ask: wire.Ask) -> "Content":
-        """Return the canonical content of a query. Frames are stored, but they are not compared."""
+        """Return the canonical content of a query. Frames and landmarks are stored, but not compared."""
         content = ask.model_dump(mode="json")
         text = canonical.text(content)
         for segment in [*content.get("segments", []), *content["context"]]:
-            del segment["frames"]
+            del segment["frames"], segment["landmarks"]
         return cls(ask, text, canonical.digest(canonical.text(content)))
 
     @property

@@ -12,6 +12,7 @@ from waypost_server.http.context import Ctx
 from waypost_server.http.jsonbody import JsonRoute
 from waypost_server.http.parameters import RowPath, RowQuery
 from waypost_server.http.problems import refusals
+from waypost_server.leases import stuck
 from waypost_server.runs import service as runs
 from waypost_server.watch import at_work, export, ledger_rows, outlook, query_history, query_rows
 from waypost_server.watch.records import reading
@@ -86,6 +87,12 @@ async def list_records(
 async def get_history(query: RowPath, context: Ctx, _: Allowed) -> wire.QueryHistory:
     """Return all assignments of a query, their answers, and what they cost."""
     return await context.db.read(lambda tx: query_history.history(tx, query))
+
+
+@router.get("/runs/{run}/stuck", operation_id="listStuck", responses=refusals(errors.NotFound))
+async def list_stuck(run: str, context: Ctx, _: Allowed) -> wire.Stuck:
+    """List the queries of a run that are stuck, and why: nobody takes them, leases expire, or everybody skips them."""
+    return await context.db.read(lambda tx: stuck.stuck(tx, run))
 
 
 @router.get("/annotators", operation_id="listAtWork", responses=refusals(errors.NotFound))

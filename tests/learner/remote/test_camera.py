@@ -20,9 +20,10 @@ from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.experts.bot import Bot
 from waypost_learner.remote.camera import Camera
 from waypost_learner.remote.connection import Connection
-from waypost_learner.remote.translation import Translator
+from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
 from waypost_learner.runs.training import train
+from waypost_server.queries import checks
 
 WEST, EAST, TARGET = range(3)
 domain = CorridorDomain()
@@ -53,6 +54,21 @@ def test_every_state_of_a_query_has_its_picture() -> None:
     assert all(hashlib.sha256(png).hexdigest() == name for name, png in files.items())
     for segment in (*ask.context, *ask.segments):
         assert [agents_cell(files[frame]) for frame in segment.frames] == segment.states
+
+
+def test_landmarks_accompany_the_pictures_once_if_they_are_the_same_in_all_states() -> None:
+    sigma = walked((EAST, [1, 0]), (WEST, [0, 0]))  # over the cells 3 4 3, and 3 2 1
+    ask: Any = Translator(domain, instance, Camera(domain, instance)).ask(InspectLo(sigma[1], sigma[:1]), 0, 0)
+    cells = [
+        {name: (round(13 * box.left), round(13 * box.right)) for name, box in boxes.items()}
+        for boxes in ask.context[0].landmarks
+    ]
+    near = {"west": (0, 1), "east": (4, 5), "target": (6, 7)}
+    assert cells == [near, near | {"east": (8, 9)}, near]
+    [boxes] = ask.segments[0].landmarks
+    assert boxes == ask.context[0].landmarks[0]
+    assert (boxes["target"].top, boxes["target"].bottom) == (0, 1)
+    checks.check_ask(ask, checks.Names.of(vocabulary(domain)), [])
 
 
 def test_a_picture_is_taken_and_given_once() -> None:

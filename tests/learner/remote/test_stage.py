@@ -84,6 +84,11 @@ def test_each_state_has_its_picture_uploaded_before_it_is_shown() -> None:
     assert stage.perform(moves(EAST, EAST, known=9)).frames == []
 
 
+def test_the_states_on_a_stage_have_their_landmarks() -> None:
+    states = Stage(translator, keep).perform(moves(EAST, known=0))
+    assert [set(boxes) for boxes in states.landmarks] == [{"east", "target"}, {"west", "east", "target"}]
+
+
 def test_a_page_that_knows_more_than_there_is_is_told_so() -> None:
     states = Stage(translator, keep).perform(moves(EAST, known=9))
     assert (states.known, states.states) == (2, [])

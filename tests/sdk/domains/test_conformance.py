@@ -83,6 +83,9 @@ FAULTS: dict[str, tuple[Fault, str]] = {
     "one array for all observations": (lambda: with_env(observe=shared_array), "return a copy"),
     "random beyond the seed": (lambda: with_env(step=random_step), "gave another state after"),
     "a grey picture": (lambda: with_members(frame=lambda s, e: np.zeros((8, 8), np.uint8)), "(rows, columns, 3)"),
+    "a landmark by name": (lambda: with_members(landmarks=lambda s, i, v: {"end": (0, 0, 1, 1)}), "by the numbers"),
+    "a landmark in pixels": (lambda: with_members(landmarks=lambda s, i, v: {0: (3, 4, 9, 8)}), "as shares of"),
+    "a landmark without a side": (lambda: with_members(landmarks=lambda s, i, v: {0: (0, 0, 1)}), "as shares of"),
     "a list as place": (lambda: with_members(place=lambda s, v: [v]), "return a tuple instead"),
     "a view of another shape": (
         lambda: with_members(lo_view=View((3,), lambda seen: seen)),

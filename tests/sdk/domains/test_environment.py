@@ -10,7 +10,7 @@ from gymnasium import spaces
 from gymnasium.utils.env_checker import check_env
 
 import waypost
-from waypost.domains import Ending, Pictured, Restorable, Solved, find_domain
+from waypost.domains import Ending, Landmarked, Pictured, Restorable, Solved, find_domain
 from waypost.domains.conformance import check
 
 
@@ -125,6 +125,14 @@ def test_the_environments_own_picture_is_used_and_another_one_replaces_it() -> N
     env = domain.make_env()
     env.reset(options={"instance": 1})
     assert domain.frame(env).shape == (5, 6, 3)
+
+
+def test_landmarks_are_given_by_the_names_of_subgoals() -> None:
+    assert not isinstance(arm(), Landmarked)
+    domain = arm(landmarks=lambda state: {"whole": (0, 0, state["angle"] / 4, 1)})
+    assert domain.landmarks(None, {"angle": 2}) == {1: (0, 0, 0.5, 1)}
+    with pytest.raises(ValueError, match="'nothing' is no subgoal; the subgoals are: half, whole"):
+        arm(landmarks=lambda state: {"nothing": (0, 0, 1, 1)}).landmarks(None, {})
 
 
 def test_rules_in_names_make_an_oracle() -> None:

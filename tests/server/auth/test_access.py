@@ -99,6 +99,7 @@ MATRIX: dict[str, set[str]] = {
     "listAtWork": EVERYBODY,
     "getOutlook": EVERYBODY,
     "listQueryRows": WATCHERS,
+    "listStuck": WATCHERS,
     "listLedger": WATCHERS,
     "listRecords": WATCHERS,
     "getAgreement": WATCHERS,

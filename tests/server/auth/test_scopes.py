@@ -15,7 +15,7 @@ from waypost_server.cli.main import app
 READ: set[str] = {
     *("listRuns", "getRun", "getCurves", "getCosts", "getForecast", "getFrame", "listAtWork", "getOutlook"),
     *("streamEvents", "streamChanges", "listQueries", "getQuery", "getHistory", "listQueryRows", "listAnswers"),
-    *("listLedger", "listRecords", "getAgreement", "exportRun", "metrics"),
+    *("listStuck", "listLedger", "listRecords", "getAgreement", "exportRun", "metrics"),
     *("me", "logout", "myNumbers", "myReturned", "myTokens", "mySessions", "getPractice", "practice", "play"),
 }
 ANSWER = {

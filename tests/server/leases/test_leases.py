@@ -178,6 +178,15 @@ def test_a_deferring_bot_takes_what_has_become_old(service: Service) -> None:
     assert held["leased_at"] - held["query"]["created_at"] >= 0.5
 
 
+def test_a_person_who_skipped_a_query_still_takes_the_others(service: Service) -> None:
+    run, bot = service.learner.create_run(), service.user("bot", "annotator")
+    service.learner.ask(run, query(), query(ordinal=1))
+    service.annotator.release(service.annotator.lease(), skip=True)
+    service.annotator.release(service.annotator.lease())
+    bot.lease(defer=60)  # what the person skipped
+    assert bot.lease(defer=60, expect=204) is None
+
+
 def test_a_deferring_bot_takes_what_the_person_at_work_skipped(service: Service) -> None:
     run = service.learner.create_run()
     bot = service.user("bot", "annotator")

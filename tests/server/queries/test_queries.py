@@ -6,6 +6,8 @@ import time
 import pytest
 from tests.server.kit import Json, Service, in_process, query, segment
 
+BOX = {"left": 0.25, "top": 0.25, "right": 0.5, "bottom": 1}
+
 
 def test_asking_again_returns_the_query_with_its_answer(service: Service) -> None:
     run = service.learner.create_run()
@@ -42,6 +44,12 @@ def test_the_same_query_twice_in_one_list_is_one_query(service: Service) -> None
         (query(segments=[{"subgoal": "north", "states": [1, 2], "actions": ["up", "up"]}]), ["segments", 0, "states"]),
         (query(segments=[{"subgoal": "west", "states": [1], "actions": []}]), ["segments", 0, "subgoal"]),
         (query(segments=[{"subgoal": None, "states": [1, 2], "actions": ["left"]}]), ["segments", 0, "actions", 0]),
+        (query(segments=[segment(2) | {"landmarks": [{"west": BOX}]}]), ["segments", 0, "landmarks", 0]),
+        (query(segments=[segment(2) | {"landmarks": [{"north": BOX}] * 2}]), ["segments", 0, "landmarks"]),
+        *(
+            (query(segments=[segment(1) | {"landmarks": [{"north": BOX | wrong}]}]), ["segments", 0, "landmarks", 0])
+            for wrong in ({"left": 0.5}, {"bottom": 0.25}, {"right": 1.1})
+        ),
         (query("label_lo", segments=[segment(1, None)]), ["segments", 0, "subgoal"]),
         (query("label_lo", segments=[segment(1), segment(1)]), ["segments"]),
         (query(context=[{"subgoal": "west", "states": [1], "actions": []}]), ["context", 0, "subgoal"]),
@@ -57,7 +65,7 @@ def test_the_same_query_twice_in_one_list_is_one_query(service: Service) -> None
 def test_a_query_that_makes_no_sense_names_the_field(lite: Service, ask: Json, field: list[str | int]) -> None:
     run = lite.learner.create_run()
     problem = lite.learner.ask(run, ask, expect=422)
-    assert problem["errors"][0]["loc"] == ["body", "queries", 0, *field]
+    assert problem["errors"][0]["loc"][: 3 + len(field)] == ["body", "queries", 0, *field]
     assert lite.learner.get(f"/runs/{run}")["open_queries"] == 0
 
 

@@ -517,6 +517,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/stuck": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Stuck
+         * @description List the queries of a run that are stuck, and why: nobody takes them, leases expire, or everybody skips them.
+         *
+         *     Needs the role admin or learner or viewer.
+         */
+        get: operations["listStuck"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/annotators": {
         parameters: {
             query?: never;
@@ -2531,6 +2553,20 @@ export interface components {
             answer: components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
         };
         /**
+         * Box
+         * @description A box in a picture. Its sides are shares of the picture's width and height, from the upper left corner.
+         */
+        Box: {
+            /** Left */
+            left: number;
+            /** Top */
+            top: number;
+            /** Right */
+            right: number;
+            /** Bottom */
+            bottom: number;
+        };
+        /**
          * Change
          * @description A server-sent event: something changed in some run.
          */
@@ -2813,6 +2849,13 @@ export interface components {
              * @description One uploaded picture per state, or none.
              */
             frames?: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks?: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
         };
         /**
          * DemoReplay
@@ -2829,6 +2872,13 @@ export interface components {
              * @description One uploaded picture per state, or none.
              */
             frames: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
         };
         /**
          * DemoSegment
@@ -5040,6 +5090,13 @@ export interface components {
              * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
             frames?: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks?: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
         };
         /**
          * Segment
@@ -5066,6 +5123,13 @@ export interface components {
              * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
             frames: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
         };
         /**
          * SendBack
@@ -5161,6 +5225,55 @@ export interface components {
              * @description The `iss` of the address, if it has one.
              */
             issuer?: string | null;
+        };
+        /**
+         * Stuck
+         * @description The queries of a run that are stuck, oldest first, sent by the server.
+         */
+        Stuck: {
+            /**
+             * Queries
+             * @description The first 20.
+             */
+            queries: components["schemas"]["StuckQuery"][];
+            /**
+             * Total
+             * @description How many there are.
+             */
+            total: number;
+        };
+        /**
+         * StuckQuery
+         * @description A query that is stuck, and why.
+         */
+        StuckQuery: {
+            /**
+             * Query
+             * @description The id of the query.
+             */
+            query: number;
+            /** Episode */
+            episode: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full";
+            /**
+             * Reasons
+             * @description waiting: it has been open for more than 10 minutes. expired: two or more of its leases expired. skipped: every annotator of the last day who takes queries of its run and kind has skipped it.
+             */
+            reasons: ("waiting" | "expired" | "skipped")[];
+            /**
+             * Open Since
+             * @description When it was asked, or when the last lease of it ended, in seconds since the epoch.
+             */
+            open_since: number;
+            /**
+             * Expiries
+             * @description How many leases of the query expired.
+             */
+            expiries: number;
         };
         /**
          * Tally
@@ -5630,6 +5743,13 @@ export interface components {
              * @description One uploaded picture per state; empty if the web app draws the states itself.
              */
             frames: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
             /**
              * Ended
              * @description Whether the episode ended in the last state; later actions have no state.
@@ -7809,6 +7929,73 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["QueryHistory"];
+                };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listStuck: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Stuck"];
                 };
             };
             /** @description Log in first */

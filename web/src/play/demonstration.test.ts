@@ -26,6 +26,7 @@ const news = (known: number, states: string[], more: Partial<PlayStates> = {}): 
   known,
   states,
   frames: [],
+  landmarks: [],
   ended: false,
   succeeded: false,
   ...more,

@@ -1,7 +1,7 @@
 // A demonstration that is being played, as a list of moves. Pure: no function changes its arguments.
 import type { AnswerOf, AskOf, DemoSegment, Json, PlayStates, Price } from '../api/types';
 import { t } from '../language/language';
-import type { Stretch, Tape } from '../player/tape';
+import { landmarksAt, type Landmarks, type Stretch, type Tape } from '../player/tape';
 import { count } from '../ui/format';
 
 /** A move of the annotator. A demonstration is a list of moves, so that each can be undone, including starting over. */
@@ -16,6 +16,7 @@ export interface Demonstration {
   readonly moves: readonly Move[];
   readonly states: readonly Json[]; // s_1 and the states that the learner's environment has returned
   readonly pictures: readonly (string | null)[]; // the hash of each state's picture; null if there is none yet
+  readonly landmarks: readonly Landmarks[]; // in each state's picture
   readonly ended: boolean; // whether the episode ended in the last of these states
   readonly succeeded: boolean; // whether the task is accomplished in the last of these states
 }
@@ -30,7 +31,7 @@ export interface Part {
 type Ask = AskOf<'hier_demo'>;
 
 export function begin(ask: Ask, moves: readonly Move[] = []): Demonstration {
-  return { moves, states: [ask.state], pictures: [null], ended: false, succeeded: false };
+  return { moves, states: [ask.state], pictures: [null], landmarks: [{}], ended: false, succeeded: false };
 }
 
 /** Return the segments since the last start. */
@@ -110,9 +111,12 @@ export function takeBack(demonstration: Demonstration): Demonstration {
 export function learn(demonstration: Demonstration, news: PlayStates): Demonstration {
   const states = [...demonstration.states.slice(0, news.known), ...news.states];
   const pictures = states.map((_, at) => news.frames[at - news.known] ?? demonstration.pictures[at] ?? null);
+  const landmarks = states.map((_, at) =>
+    at < news.known ? (demonstration.landmarks[at] ?? {}) : landmarksAt(news.landmarks, at - news.known),
+  );
   const { ended, succeeded } = news;
   const moves = ended ? upTo(demonstration.moves, states.length - 1) : demonstration.moves;
-  return { moves, states, pictures, ended, succeeded };
+  return { moves, states, pictures, landmarks, ended, succeeded };
 }
 
 /** Return what the demonstration costs as an answer, in units, at the server's price. */
@@ -128,8 +132,11 @@ export function answerOf(demonstration: Demonstration, withReplay: boolean): Ans
   const segments = segmentsOf(demonstration);
   if (segments.length === 0 || isBehind(demonstration)) return null;
   const { states, pictures } = demonstration;
+  const landmarks = demonstration.landmarks.some((one) => Object.keys(one).length > 0)
+    ? [...demonstration.landmarks]
+    : [];
   const frames = pictures.filter((picture) => picture !== null);
-  const replay = { states: [...states], frames: frames.length === states.length ? frames : [] };
+  const replay = { states: [...states], frames: frames.length === states.length ? frames : [], landmarks };
   return { kind: 'hier_demo', segments, replay: withReplay ? replay : null };
 }
 
@@ -143,16 +150,22 @@ export function tapeOf(demonstration: Demonstration): Tape {
     next += actions.length;
     return { index, subgoal, first, last, actions: actions.slice(0, last - first), asked: true };
   });
-  const { states, pictures, ended } = demonstration;
-  return { frames: states, pictures, stretches, start: 0, goesOn: !ended };
+  const { states, pictures, landmarks, ended } = demonstration;
+  return { frames: states, pictures, landmarks, stretches, start: 0, goesOn: !ended };
 }
 
 /** Return the demonstration without the states of undone actions. */
 function fitted(demonstration: Demonstration): Demonstration {
   const most = countActions(partsOf(demonstration)) + 1;
   if (most >= demonstration.states.length) return demonstration;
-  const [states, pictures] = [demonstration.states.slice(0, most), demonstration.pictures.slice(0, most)];
-  return { ...demonstration, states, pictures, ended: false, succeeded: false };
+  return {
+    ...demonstration,
+    states: demonstration.states.slice(0, most),
+    pictures: demonstration.pictures.slice(0, most),
+    landmarks: demonstration.landmarks.slice(0, most),
+    ended: false,
+    succeeded: false,
+  };
 }
 
 /** Return the moves up to a number of actions since the last start. */

@@ -3,7 +3,7 @@ import { readable } from '../api/names';
 import type { AnswerOf, AskOf, PlayMoves, PlayStates, Price, Vocabulary } from '../api/types';
 import { bindingsFor, type Command } from '../keys/registry';
 import { t } from '../language/language';
-import type { Scene } from '../player/scene';
+import type { Pointing, Scene } from '../player/scene';
 import * as demos from './demonstration';
 import type { Demonstration, Move } from './demonstration';
 import type { PlayDrafts } from './drafts';
@@ -38,6 +38,7 @@ export class Play {
   readonly steps = $derived.by(() => demos.countActions(this.parts));
   readonly cost = $derived.by(() => demos.costOf(this.demonstration, this.#options.price));
   readonly scene: Scene = $derived.by(() => this.#scene());
+  readonly pointing: Pointing = $derived.by(() => this.#pointing());
 
   readonly #options: PlayOptions;
   readonly #events: PlayEvents;
@@ -169,15 +170,26 @@ export class Play {
     });
   }
 
+  /** Before the first step of a segment, pointing chooses its subgoal. */
+  #pointing(): Pointing {
+    const { subgoals } = this.#options.vocabulary;
+    const mayChoose = !this.ask.flat && !this.demonstration.ended && !this.current?.actions.length;
+    const choose = (name: string): void => this.run(`choose:${subgoals.indexOf(name)}`);
+    return { show: null, pick: null, choose: mayChoose ? choose : null, labeling: null };
+  }
+
   #scene(): Scene {
     const tape = demos.tapeOf(this.demonstration);
+    const { current } = this;
+    const at = tape.frames.length - 1;
+    const chosen = current?.subgoal && current.actions.length === 0 ? current.subgoal : null;
     return {
       instance: this.ask.instance,
       tape,
       vocabulary: this.#options.vocabulary,
-      at: tape.frames.length - 1,
-      current: this.current === null ? null : this.parts.length - 1,
-      labels: [],
+      at,
+      current: current === null ? null : this.parts.length - 1,
+      labels: chosen === null ? [] : [{ frame: at, name: chosen }],
     };
   }
 }

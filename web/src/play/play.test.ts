@@ -66,6 +66,7 @@ class Scenario {
       known,
       states: states.slice(known),
       frames: states.slice(known).map((state) => `picture of ${state}`),
+      landmarks: [{ door: { left: 0, top: 0, right: 0.25, bottom: 1 } }],
       ended: succeeded,
       succeeded,
     });
@@ -112,6 +113,27 @@ describe('playing', () => {
     const scenario = new Scenario().here();
     scenario.walk('choose:0', 'act:1', 'act:1', 'clear');
     expect(scenario.play.scene.tape.pictures).toEqual(['picture of 0', 'picture of 1']);
+  });
+
+  it('has the landmarks of every state, and keeps them with the states', () => {
+    const scenario = new Scenario().here();
+    scenario.walk('choose:0', 'act:1', 'act:1', 'clear');
+    const boxes = { door: { left: 0, top: 0, right: 0.25, bottom: 1 } };
+    expect(scenario.play.scene.tape.landmarks).toEqual([boxes, boxes]);
+  });
+
+  it('takes a subgoal that is pointed at, until the first step', () => {
+    const scenario = new Scenario().here();
+    scenario.play.pointing.choose?.('target');
+    expect(scenario.play.scene.labels).toEqual([{ frame: 0, name: 'target' }]);
+    scenario.play.pointing.choose?.('door');
+    expect(scenario.play.current?.subgoal).toBe('door');
+    scenario.walk('act:1');
+    expect(scenario.play.pointing.choose).toBeNull();
+    expect(scenario.play.scene.labels).toEqual([]);
+    scenario.walk('reached');
+    expect(scenario.play.pointing.choose).not.toBeNull();
+    expect(new Scenario({ flat: true }).here().play.pointing.choose).toBeNull();
   });
 
   it('asks before a demonstration is sent that does not succeed', () => {

@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import * as players from './player';
 import { actionAt, askedFrames, buildTape, describeFrame, stops, stretchAt } from './tape';
 
+const box = (left: number) => ({ left, top: 0, right: 1, bottom: 1 });
 const one = {
   subgoal: 'north',
   states: [
@@ -11,6 +12,7 @@ const one = {
   ],
   actions: ['up', 'up'],
   frames: ['a', 'b', 'c'],
+  landmarks: [{ north: box(0.1) }],
 };
 const two = {
   subgoal: 'east',
@@ -20,6 +22,7 @@ const two = {
   ],
   actions: ['right'],
   frames: [],
+  landmarks: [],
 };
 
 describe('a tape', () => {
@@ -41,6 +44,13 @@ describe('a tape', () => {
 
   it('knows the picture of each frame, where there is one', () => {
     expect(tape.pictures).toEqual(['a', 'b', 'c', null]);
+  });
+
+  it('knows the landmarks of each frame: sent for each state, once for all states, or not at all', () => {
+    const sent = { ...two, landmarks: [{}, { east: box(0.2) }] };
+    const north = { north: box(0.1) };
+    expect(buildTape([one], [sent]).landmarks).toEqual([north, north, north, { east: box(0.2) }]);
+    expect(tape.landmarks).toEqual([north, north, north, {}]);
   });
 
   it('does not join what does not meet', () => {
@@ -72,7 +82,10 @@ describe('a tape', () => {
   });
 
   it('holds segments without actions', () => {
-    const empty = buildTape([], [{ subgoal: 'west', states: [[1, 1]], actions: [], frames: [] }, two]);
+    const empty = buildTape(
+      [],
+      [{ subgoal: 'west', states: [[1, 1]], actions: [], frames: [], landmarks: [] }, two],
+    );
     expect(empty.frames).toHaveLength(2);
     expect(stops(empty)).toEqual([0, 1]);
   });

@@ -19,8 +19,15 @@ export interface Label {
 
 /** What pointing at the picture does. Every act has a key, too: this is the same with a mouse, a pen or a finger. */
 export interface Pointing {
-  /** Show a frame. In Label_HI, this selects its segment. */
-  goTo(frame: number): void;
+  /** Show a frame, and change no label. Null: only the last frame is shown. */
+  readonly show: ((frame: number) => void) | null;
+  /**
+   * Pick the step that begins in a frame, and show it. In Label_HI, this selects its segment; where actions are
+   * labeled, a step after the first unlabeled one is marked as the first wrong step. Null as above.
+   */
+  readonly pick: ((frame: number) => void) | null;
+  /** Choose a subgoal for the current segment, or the next one of a demonstration. Null: none is asked for now. */
+  readonly choose: ((subgoal: string) => void) | null;
   /** Null if the query asks for no labels. */
   readonly labeling: Labeling | null;
 }
@@ -28,8 +35,6 @@ export interface Pointing {
 /** What labels the picture. */
 export interface Labeling {
   readonly of: 'subgoals' | 'actions';
-  /** Label the current segment or state. */
-  choose(name: string): void;
   /** Label the segments or states along a way. `end` is the frame of the state where the way ends, if there is one. */
   draw(choices: readonly Choice[], end: number | null): void;
 }

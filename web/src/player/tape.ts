@@ -1,7 +1,10 @@
 // The tape: the trajectory of a query as frames, one per state.
-import type { Json, Segment } from '../api/types';
+import type { Box, Json, Segment } from '../api/types';
 import { t } from '../language/language';
 import type { Player } from './player';
+
+/** Where subgoals are in a picture, by subgoal. */
+export type Landmarks = Readonly<Record<string, Box>>;
 
 /** A segment on the tape: the frames from `first` to `last`, both included. */
 export interface Stretch {
@@ -19,6 +22,8 @@ export interface Tape {
   readonly frames: readonly Json[];
   /** The hash of each frame's picture; null if the learner sent none. */
   readonly pictures: readonly (string | null)[];
+  /** The landmarks in each frame's picture; none if the learner sent none. */
+  readonly landmarks: readonly Landmarks[];
   readonly stretches: readonly Stretch[];
   /** The frame where the first segment begins that the query asks about. */
   readonly start: number;
@@ -36,11 +41,13 @@ export interface Playable {
 export function buildTape(context: readonly Segment[], asked: readonly Segment[]): Tape {
   const frames: Json[] = [];
   const pictures: (string | null)[] = [];
+  const landmarks: Landmarks[] = [];
   const stretches = [...context, ...asked].map((segment, index): Stretch => {
     const joined = frames.length > 0 && same(frames.at(-1), segment.states[0]);
     const skipped = joined ? 1 : 0;
     frames.push(...segment.states.slice(skipped));
     pictures.push(...segment.states.map((_, state) => segment.frames[state] ?? null).slice(skipped));
+    landmarks.push(...segment.states.map((_, state) => landmarksAt(segment.landmarks, state)).slice(skipped));
     const last = frames.length - 1;
     const first = last - segment.states.length + 1;
     return {
@@ -52,7 +59,13 @@ export function buildTape(context: readonly Segment[], asked: readonly Segment[]
       asked: index >= context.length,
     };
   });
-  return { frames, pictures, stretches, start: stretches[context.length]?.first ?? 0, goesOn: false };
+  const start = stretches[context.length]?.first ?? 0;
+  return { frames, pictures, landmarks, stretches, start, goesOn: false };
+}
+
+/** Return the landmarks of a state. The learner sends an entry for each state, one for all states, or none. */
+export function landmarksAt(sent: readonly Landmarks[] | undefined, state: number): Landmarks {
+  return (sent?.length === 1 ? sent[0] : sent?.[state]) ?? {};
 }
 
 export function lastFrame(tape: Tape): number {

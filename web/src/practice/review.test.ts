@@ -8,6 +8,7 @@ const segment = (subgoal: string, from: number, n: number) => ({
   states: Array.from({ length: n + 1 }, (_, step) => [1, from + step]),
   actions: Array.from({ length: n }, () => 'right'),
   frames: [],
+  landmarks: [],
 });
 const before = segment('north', 0, 2);
 const ask = (kind: string, segments: object[]): Answerable =>

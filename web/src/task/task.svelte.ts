@@ -4,11 +4,11 @@ import { bindingsFor, type Command } from '../keys/registry';
 import { t } from '../language/language';
 import { answerOf, choose, chooseAll, EDITS, hintOf, moveTo, newLabels, type Labels } from './labels/labels';
 import type { HiLabels } from './labels/hi';
-import { markFirstWrong, type LoLabels } from './labels/lo';
+import { pickState, type LoLabels } from './labels/lo';
 import { MOVES } from '../player/commands';
 import * as players from '../player/player';
 import { askedFrames, buildTape, lastFrame, stops, stretchAt } from '../player/tape';
-import type { Choice, Label, Labeling, Pointing, Scene } from '../player/scene';
+import type { Choice, Label, Pointing, Scene } from '../player/scene';
 import { draftOf, keepDraft } from './labels/drafts';
 
 export interface TaskOptions {
@@ -53,7 +53,7 @@ export class Task {
     this.bindings = bindingsFor(ask.kind, vocabulary);
     this.#frames = askedFrames(this.tape);
     this.labels = (draft === null ? undefined : draftOf(draft)) ?? newLabels(ask);
-    this.pointing = { goTo: (frame) => this.goTo(frame), labeling: this.#labeling() };
+    this.pointing = this.#pointing();
     this.player = this.#firstLook();
     this.#showCursor();
   }
@@ -76,18 +76,21 @@ export class Task {
   }
 
   /** Show a frame that was pointed at. In Label_HI, its segment is then the next one to label. */
-  goTo(frame: number): void {
+  pick(frame: number): void {
     const stretch = stretchAt(this.tape, frame);
     if (this.ask.kind === 'label_hi' && stretch?.asked) this.moveTo(stretch.index - this.ask.context.length);
+    const state = this.#frames.indexOf(frame);
+    if (this.labels !== null && this.labels.kind !== 'label_hi' && state !== -1) this.pickState(state);
     this.seek(frame);
+  }
+
+  /** Move to a state. A state after the first unlabeled one is marked as the first wrong step. */
+  pickState(state: number): void {
+    this.#edit((labels) => (labels.kind === 'label_hi' ? labels : pickState(labels, state)));
   }
 
   moveTo(index: number): void {
     this.#edit((labels) => moveTo(labels, index));
-  }
-
-  firstWrong(state: number): void {
-    this.#edit((labels) => (labels.kind === 'label_hi' ? labels : markFirstWrong(labels, state)));
   }
 
   run(command: Command): void {
@@ -112,14 +115,14 @@ export class Task {
     this.#edit((labels) => choose(labels, index, this.#options.vocabulary), hintOf('choose'));
   }
 
-  #labeling(): Labeling | null {
-    if (this.labels === null) return null;
-    const { subgoals, actions } = this.#options.vocabulary;
-    const isHi = this.labels.kind === 'label_hi';
+  #pointing(): Pointing {
+    const of = this.labels === null ? null : this.labels.kind === 'label_hi' ? 'subgoals' : 'actions';
+    const { subgoals } = this.#options.vocabulary;
     return {
-      of: isHi ? 'subgoals' : 'actions',
-      choose: (name) => this.run(`choose:${(isHi ? subgoals : actions).indexOf(name)}`),
-      draw: (choices, end) => this.#draw(choices, end),
+      show: (frame) => this.seek(frame),
+      pick: (frame) => this.pick(frame),
+      choose: of === 'subgoals' ? (name) => this.run(`choose:${subgoals.indexOf(name)}`) : null,
+      labeling: of && { of, draw: (choices, end) => this.#draw(choices, end) },
     };
   }
 

@@ -7,14 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from waypost.domains import Horizons, InstanceSets, View
+from waypost.domains import Box, Horizons, InstanceSets, View
 from waypost.trajectory import Outcome, Subgoal
 from waypost_learner.domains.montezuma.env import FRAMES, MAX_NOOPS, MAX_STEPS, Instance, MontezumaEnv
 from waypost_learner.domains.montezuma.game import ACTIONS
 from waypost_learner.domains.montezuma.landmarks import SIZE
 from waypost_learner.domains.montezuma.oracle import RoomOracle
-from waypost_learner.domains.montezuma.pictures import framed
-from waypost_learner.domains.montezuma.subgoals import SUBGOALS, reached
+from waypost_learner.domains.montezuma.subgoals import LANDMARKS, SUBGOALS, reached
 from waypost_learner.domains.montezuma.views import CENTERED_VIEW, SMALL_VIEW
 
 SLIPS, STICKY = 0.05, 0.25
@@ -104,5 +103,10 @@ class MontezumaDomain:
         build(file, progress)
 
     def frame(self, env: Any) -> NDArray[np.uint8]:
-        """Return the screen with a box around each landmark."""
-        return framed(env.unwrapped.picture())
+        """Return the screen uint8[210, 320, 3] in its usual shape: the game's pixels are twice as wide as high."""
+        return np.repeat(env.unwrapped.picture(), 2, axis=1)
+
+    def landmarks(self, instance: Any, state: Any) -> dict[Subgoal, Box]:
+        """Return the boxes of the paper's detectors. They are the same in each state."""
+        del instance, state
+        return {subgoal: landmark.shares for subgoal, landmark in LANDMARKS.items()}

@@ -26,6 +26,11 @@ class Box:
     right: int
     bottom: int
 
+    @property
+    def shares(self) -> tuple[float, float, float, float]:
+        """The left, upper, right and lower side, as shares of the picture."""
+        return self.left / SIZE, self.top / SIZE, self.right / SIZE, self.bottom / SIZE
+
     def changed(self, grey: Grey, before: Grey) -> bool:
         """Return whether at least 30 % of the pixels in the box differ between two pictures uint8[84, 84]."""
         part = slice(self.top, self.bottom), slice(self.left, self.right)

@@ -3,9 +3,11 @@
 from typing import Any
 
 from waypost.trajectory import Subgoal
+from waypost_learner.domains.montezuma import landmarks
 
 SUBGOALS = ("stair", "key", "stair_back", "door")
 STAIR, KEY, STAIR_BACK, DOOR = range(4)
+LANDMARKS = {STAIR: landmarks.STAIR, KEY: landmarks.KEY, STAIR_BACK: landmarks.STAIR, DOOR: landmarks.DOOR}
 
 
 def reached(state: Any, subgoal: Subgoal) -> bool:

@@ -1,6 +1,6 @@
 """Checks of what a domain declares: names, numbers, spaces and optional parts."""
 
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from typing import Any
 
 import gymnasium
@@ -13,6 +13,7 @@ from waypost.domains.parts import (
     Centered,
     Cropped,
     Ending,
+    Landmarked,
     Pictured,
     Placed,
     Tested,
@@ -88,6 +89,8 @@ def parts_fit(domain: Domain) -> Iterator[str]:
     env.step(np.int64(actions[0]))
     if isinstance(domain, Pictured):
         yield from _picture(domain.frame(env))
+    if isinstance(domain, Landmarked):
+        yield from _landmarks(domain.landmarks(domain.instance_view(instance), start), len(domain.subgoals))
     if isinstance(domain, Ending):
         for subgoal in range(len(domain.subgoals)):
             found = domain.outcome(instance, start, domain.state_view(env), subgoal)
@@ -117,6 +120,19 @@ def _picture(pixels: Any) -> Iterator[str]:
         yield f"frame returns {seen}; return uint8 of the shape (rows, columns, 3)."
     elif max(pixels.shape) > LARGEST_PICTURE:
         yield f"frame returns a picture of {pixels.shape[:2]} pixels; at most {LARGEST_PICTURE} per side are possible."
+
+
+def _landmarks(boxes: Any, subgoals: int) -> Iterator[str]:
+    if not isinstance(boxes, Mapping) or not set(boxes) <= set(range(subgoals)):
+        yield f"landmarks returns {boxes!r}; return boxes by the numbers of subgoals, 0 to {subgoals - 1}."
+        return
+    for subgoal, box in boxes.items():
+        left, top, right, bottom = box if np.shape(box) == (4,) else (0, 0, 0, 0)
+        if not (0 <= left < right <= 1 and 0 <= top < bottom <= 1):
+            yield (
+                f"landmarks returns {box!r} for subgoal {subgoal}; return its left, upper, right and lower side, as "
+                "shares of the picture's width and height, 0 to 1."
+            )
 
 
 def _view(name: str, view: View, observation: Any) -> Iterator[str]:

@@ -2,8 +2,9 @@
 import { initial } from '../../api/names';
 import type { Label, Scene } from '../../player/scene';
 import type { Stretch } from '../../player/tape';
-import { isDoor, isLava, MOVES, parseCell, SIDES, type Cell, type Maze } from './geometry';
+import { isDoor, isLava, parseCell, type Cell, type Maze } from './geometry';
 import type { Place } from './hit';
+import { ARROW, BLOCK, labelRect, OUTWARD, placeMarkers, wayOf, type Rect } from './marks';
 import type { Palette } from './palette';
 import type { Stroke } from './stroke';
 import { lanesOf, type Lane, type Point } from './trails';
@@ -30,10 +31,10 @@ export function drawMaze(brush: Brush, picture: Picture): void {
   const lanes = lanesOf(picture.scene.tape.frames.map(parseCell));
   for (const stretch of inFront(picture.scene)) drawTrail(brush, picture, stretch, lanes);
   drawAgent(brush, picture);
-  for (const label of picture.scene.labels) drawLabel(brush, picture, label);
   drawEnd(brush, picture);
   for (const place of picture.places) drawPlace(brush, picture, place);
-  for (const stretch of inFront(picture.scene)) drawMarker(brush, picture, stretch);
+  drawMarkers(brush, picture);
+  for (const label of picture.scene.labels) drawLabel(brush, picture, label);
   drawStroke(brush, picture);
 }
 
@@ -168,25 +169,48 @@ function inFront({ tape, current }: Scene): Stretch[] {
   return tape.stretches.toSorted((a, b) => Number(a.index === current) - Number(b.index === current));
 }
 
-/** Draw where a subgoal was chosen: its number and letter, at the corner of the cell. */
-function drawMarker(brush: Brush, picture: Picture, stretch: Stretch): void {
-  const cell = cellAt(picture, stretch.first);
-  if (cell === null || stretch.subgoal === null) return;
-  const { palette, scene } = picture;
+/** Draw where subgoals were chosen, at corners of the cells that leave the labels free; the current one in front. */
+function drawMarkers(brush: Brush, picture: Picture): void {
+  const { scene } = picture;
   const unit = unitOf(picture);
-  const [x, y] = centre(picture, cell, -0.36);
-  const text = `${stretch.index + 1}${initial(stretch.subgoal)}`;
-  const isCurrent = scene.current === stretch.index;
   const letters = Math.max(Math.round(unit * 0.34), LEAST_TEXT);
   brush.font = fontOf(letters);
-  const width = Math.max(unit * 0.56, brush.measureText(text).width + letters * 0.5);
-  const height = letters * 1.4;
+  const marked = scene.tape.stretches.flatMap((stretch) => {
+    const cell = cellAt(picture, stretch.first);
+    if (cell === null || stretch.subgoal === null) return [];
+    const text = `${stretch.index + 1}${initial(stretch.subgoal)}`;
+    const width = Math.max(unit * 0.56, brush.measureText(text).width + letters * 0.5);
+    return [{ stretch, text, cell, size: [(letters * 1.4) / unit, width / unit] as const }];
+  });
+  const labels = scene.labels.flatMap((label) => {
+    const cell = cellAt(picture, label.frame);
+    return cell === null ? [] : [labelRect(cell, label)];
+  });
+  const rects = placeMarkers(marked, labels);
+  const drawn = marked.map((marker, index) => ({ ...marker, rect: rects[index] }));
+  const isCurrent = ({ stretch }: { stretch: Stretch }): boolean => stretch.index === scene.current;
+  for (const { rect, ...marker } of drawn.toSorted((a, b) => Number(isCurrent(a)) - Number(isCurrent(b)))) {
+    if (rect !== undefined) drawMarker(brush, picture, marker, rect);
+  }
+}
+
+/** Draw where a subgoal was chosen: its number and letter. */
+function drawMarker(
+  brush: Brush,
+  picture: Picture,
+  { stretch, text }: { stretch: Stretch; text: string },
+  rect: Rect,
+): void {
+  const { palette, scene } = picture;
+  const unit = unitOf(picture);
+  const [left, top] = [rect.left * unit, rect.top * unit];
+  const [width, height] = [(rect.right - rect.left) * unit, (rect.bottom - rect.top) * unit];
   brush.globalAlpha = stretch.asked ? 1 : 0.55;
   brush.fillStyle = colorOf(picture, stretch);
   brush.beginPath();
-  brush.roundRect(x - width / 2, y - height / 2, width, height, unit * 0.14);
+  brush.roundRect(left, top, width, height, unit * 0.14);
   brush.fill();
-  if (isCurrent) {
+  if (scene.current === stretch.index) {
     brush.strokeStyle = palette.map.agent;
     brush.lineWidth = unit * 0.09;
     brush.stroke();
@@ -194,7 +218,7 @@ function drawMarker(brush: Brush, picture: Picture, stretch: Stretch): void {
   brush.fillStyle = palette.map['marker-text'];
   brush.textAlign = 'center';
   brush.textBaseline = 'middle';
-  brush.fillText(text, x, y + unit * 0.02);
+  brush.fillText(text, left + width / 2, top + height / 2 + unit * 0.02);
   brush.globalAlpha = 1;
 }
 
@@ -205,17 +229,17 @@ function drawLabel(brush: Brush, picture: Picture, label: Label): void {
   const { palette } = picture;
   const unit = unitOf(picture);
   const [x, y] = centre(picture, cell, 0);
-  const way = label.name === null ? null : (MOVES[label.name] ?? SIDES[label.name]);
+  const way = wayOf(label);
   brush.fillStyle = palette.map.label;
   brush.strokeStyle = palette.map['label-edge'];
   brush.lineWidth = unit * 0.06;
   if (way) {
-    fillTriangle(brush, [x + way[1] * unit * 0.34, y + way[0] * unit * 0.34], way, unit * 0.3);
+    fillTriangle(brush, [x + way[1] * unit * OUTWARD, y + way[0] * unit * OUTWARD], way, unit * ARROW);
   } else if (label.name === null) {
     brush.fillRect(x - unit * 0.2, y - unit * 0.2, unit * 0.4, unit * 0.4);
   } else {
     brush.beginPath();
-    brush.arc(x, y, unit * 0.22, 0, 2 * Math.PI);
+    brush.arc(x, y, unit * BLOCK, 0, 2 * Math.PI);
     brush.fill();
   }
   brush.stroke();

@@ -20,7 +20,10 @@ const maze: Maze = {
 };
 const SUBGOALS = ['north', 'south', 'west', 'east', 'go_to_target', 'dance'];
 const tapeOf = (...states: number[][]): ReturnType<typeof buildTape> =>
-  buildTape([], [{ subgoal: 'north', states, actions: states.slice(1).map(() => 'up'), frames: [] }]);
+  buildTape(
+    [],
+    [{ subgoal: 'north', states, actions: states.slice(1).map(() => 'up'), frames: [], landmarks: [] }],
+  );
 
 describe('the places of subgoals', () => {
   it('are the doors of the room for its sides, and the target', () => {

@@ -34,7 +34,13 @@ function walked(start: Cell, segments: readonly (readonly [string, string])[], b
       [row, column] = [row + (MOVES[move]?.[0] ?? 0), column + (MOVES[move]?.[1] ?? 0)];
       states.push([row, column]);
     }
-    return { subgoal, states, actions: Array.from(moves, (move) => NAMES[move] ?? ''), frames: [] };
+    return {
+      subgoal,
+      states,
+      actions: Array.from(moves, (move) => NAMES[move] ?? ''),
+      frames: [],
+      landmarks: [],
+    };
   });
   return buildTape(all.slice(0, before), all.slice(before));
 }

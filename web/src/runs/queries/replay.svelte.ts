@@ -3,7 +3,15 @@ import type { Answer, AnswerOf, Json, Query, Run, Segment } from '../../api/type
 import type { Command } from '../../keys/registry';
 import { MOVES } from '../../player/commands';
 import * as players from '../../player/player';
-import { askedFrames, buildTape, lastFrame, stops, stretchAt, type Tape } from '../../player/tape';
+import {
+  askedFrames,
+  buildTape,
+  landmarksAt,
+  lastFrame,
+  stops,
+  stretchAt,
+  type Tape,
+} from '../../player/tape';
 import type { Label, Scene, Step } from '../../player/scene';
 
 /** A query in the player. It can only be watched. */
@@ -61,7 +69,7 @@ export class Replay {
 /** Return the learner's trajectory; for a demonstration, the annotator's, as far as its states are known. */
 export function tapeOf({ ask, answer }: Pick<Query, 'ask' | 'answer'>, step: Step | null): Tape {
   if (ask.kind !== 'hier_demo') return buildTape(ask.context, ask.segments);
-  const start: Segment = { subgoal: null, states: [ask.state], actions: [], frames: [] };
+  const start: Segment = { subgoal: null, states: [ask.state], actions: [], frames: [], landmarks: [] };
   const demonstrated = answer?.kind === 'hier_demo' ? segmentsOf(ask.state, answer, step) : null;
   if (demonstrated !== null) return buildTape(ask.context, demonstrated);
   return { ...buildTape(ask.context, [start]), goesOn: true };
@@ -77,10 +85,11 @@ function segmentsOf(first: Json, answer: AnswerOf<'hier_demo'>, step: Step | nul
     const [begin, end] = [before, (before += actions.length) + 1];
     if (step === null) {
       const states = replay?.states.slice(begin, end) ?? [];
-      return { subgoal, states, actions, frames: replay?.frames?.slice(begin, end) ?? [] };
+      const landmarks = states.map((_, at) => landmarksAt(replay?.landmarks, begin + at));
+      return { subgoal, states, actions, frames: replay?.frames?.slice(begin, end) ?? [], landmarks };
     }
     const states = [state, ...actions.map((action) => (state = step(state, action)))];
-    return { subgoal, states, actions, frames: [] };
+    return { subgoal, states, actions, frames: [], landmarks: [] };
   });
 }
 

@@ -5,7 +5,13 @@ import { buildTape } from '../../player/tape';
 import { labelsOf, tapeOf } from './replay.svelte';
 
 describe('the replay of a query', () => {
-  const segment = { subgoal: 'north', states: [0, 1, 2, 3], actions: ['up', 'up', 'left'], frames: [] };
+  const segment = {
+    subgoal: 'north',
+    states: [0, 1, 2, 3],
+    actions: ['up', 'up', 'left'],
+    frames: [],
+    landmarks: [],
+  };
 
   it('shows where the segment should have ended, and no label after that', () => {
     const labels = labelsOf(
@@ -43,14 +49,14 @@ describe('the replay of a query', () => {
       { subgoal: 'north', actions: ['up', 'up'] },
       { subgoal: 'east', actions: ['right'] },
     ];
-    const replay = { states: ['s1', 's2', 's3', 's4'], frames: ['a', 'b', 'c', 'd'] };
+    const replay = { states: ['s1', 's2', 's3', 's4'], frames: ['a', 'b', 'c', 'd'], landmarks: [] };
     const tape = tapeOf({ ask, answer: { kind: 'hier_demo', segments, replay } }, null);
     expect([tape.frames, tape.pictures, tape.goesOn]).toEqual([replay.states, replay.frames, false]);
     expect(tape.stretches.map(({ first, last, subgoal }) => [first, last, subgoal])).toEqual([
       [0, 2, 'north'],
       [2, 3, 'east'],
     ]);
-    const bare = { ...replay, frames: [] };
+    const bare = { ...replay, frames: [], landmarks: [] };
     expect(tapeOf({ ask, answer: { kind: 'hier_demo', segments, replay: bare } }, null).pictures).toEqual([
       null,
       null,

@@ -8,6 +8,7 @@ const segment = (actions: string[]) => ({
   states: [...actions, 'last'],
   actions,
   frames: [],
+  landmarks: [],
 });
 
 /** One segment of up, right, right; the learner ended it at `end`, or nowhere. */
@@ -95,6 +96,14 @@ describe('Label_LO', () => {
     expect(wrong).toMatchObject({ actions: ['up', 'right', null], cursor: 2 });
     const kept = lo.markFirstWrong(lo.setAction(three, 'left'), 2);
     expect(kept.actions).toEqual(['left', 'right', null]);
+  });
+
+  it('takes a later state that is pointed at as the first wrong step, and goes to any other', () => {
+    expect(lo.pickState(three, 2)).toEqual(lo.markFirstWrong(three, 2));
+    const wrong = lo.markFirstWrong(three, 2);
+    expect(lo.pickState(wrong, 0)).toEqual(lo.moveTo(wrong, 0)); // it is labeled
+    expect(lo.pickState(three, 0)).toEqual(three); // it is the first without a label
+    expect(lo.pickState(three, 3)).toEqual(lo.moveTo(three, 3)); // the last state has no step
   });
 
   it('labels several states in one edit, and goes on where it is told or with the first without a label', () => {

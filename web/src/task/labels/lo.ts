@@ -112,6 +112,13 @@ export function markFirstWrong(labels: LoLabels, state: number): LoLabels {
   return edit(labels, { actions, end, cursor });
 }
 
+/** Move to a state that was pointed at. If it is after the first unlabeled one, the first wrong step is here. */
+export function pickState(labels: LoLabels, state: number): LoLabels {
+  const open = labels.actions.indexOf(null);
+  const isLater = open !== -1 && state > open && state < labels.actions.length;
+  return isLater ? markFirstWrong(labels, state) : moveTo(labels, state);
+}
+
 /** Take the learner's choice at every state without a label. */
 export function acceptRest(labels: LoLabels): LoLabels {
   const { suggested } = labels;
