@@ -77,8 +77,6 @@ class Learner:
         self._head_start = head_start
         keys = levels.keys(len(domain.subgoals))
         self.shared = self._shared(keys[0])
-        if self.shared is not None:
-            self.preset = replace(preset, use=preset.use.without_views)
         self.views = {key: self._view(key, keys[0]) for key in keys}
         owners = [key for key in keys if self.views[key].owner == key]
         self.q = {key: self._q_function(key) for key in owners if levels.is_q_function(key)}
@@ -97,6 +95,11 @@ class Learner:
         # depends on its own data and generator alone, so the number of threads changes nothing but the time.
         torch.set_num_threads(1)
         self._threads = ThreadPoolExecutor(threads or os.cpu_count(), initializer=torch.set_num_threads, initargs=(1,))
+
+    @property
+    def use(self) -> DomainUse:
+        """What the policies use of the domain's declarations."""
+        return self.preset.use if self.shared is None else self.preset.use.without_views
 
     def _shared(self, owner: PolicyKey) -> SharedPolicy | None:
         """Return the network that all policies share, if the preset has one, all imitate and they see pictures."""

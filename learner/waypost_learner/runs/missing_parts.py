@@ -30,7 +30,7 @@ def missing_parts(learner: Learner) -> dict[str, str]:
             f"the domain {domain.name!r} does not say how subgoals end, which reinforcement learning of subpolicies "
             "needs: give it outcome(instance, origin, state, subgoal), or use an algorithm without Q-functions"
         )
-    use, mu_imitates = preset.use, not (levels.flat or levels.q_hi)
+    use, mu_imitates = learner.use, not (levels.flat or levels.q_hi)
     plans = any(isinstance(view.network, PlanningSpec) for view in learner.views.values())
     wanted = (use.symmetries and levels.imitating) or (preset.training.dqn.symmetries and levels.reinforced)
     checks = {

@@ -1,6 +1,6 @@
 """Build everything that a configuration names, and refuse contradictory configurations."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from waypost.domains import InstanceSets, Placed, find_domain
 from waypost_learner.algorithms import Algorithm, find_algorithm
@@ -28,7 +28,8 @@ class Setup:
         """The lowest level of what a learner is told that allows what the run uses of the domain's declarations."""
         if self.algorithm.by_place:
             return STRUCTURE
-        return level_of(self.learner.preset, self.learner.levels.reinforced)
+        used = replace(self.learner.preset, use=self.learner.use)
+        return level_of(used, self.learner.levels.reinforced)
 
 
 def set_up(config: TrainConfig, threads: int | None) -> Setup:

@@ -9,11 +9,13 @@ SCHEMES = ("light", "dark")
 SIZES = (WIDE, {"width": 768, "height": 1024}, {"width": 390, "height": 844})
 TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
 AXE = (WEB / "node_modules" / "axe-core" / "axe.min.js").read_text
+SETTLED = "() => Promise.allSettled(document.getAnimations().map((one) => one.finished))"
 RUN = "tags => axe.run({ runOnly: tags, resultTypes: ['violations'], preload: false })"
 
 
 def violations(page: Page) -> list[Any]:
-    """What axe finds on the page as it is."""
+    """What axe finds on the page as it is, once nothing fades in any more."""
+    page.evaluate(SETTLED)
     if not page.evaluate("'axe' in window"):
         page.evaluate(AXE())
     return [(one["id"], [node["html"] for node in one["nodes"]]) for one in page.evaluate(RUN, TAGS)["violations"]]

@@ -187,7 +187,7 @@ def test_the_legend_names_the_marks(learner: Learner, open_page: Open) -> None:
     page.keyboard.press("p")
     wait_for_heading(page, ask("label_lo")["question"])
     expect(legend.last).to_have_text("label")
-    expect(page.get_by_text("Drag along the right way to set its actions.")).to_be_visible()
+    expect(page.get_by_text("or drag along the right way.")).to_be_visible()
 
 
 def test_a_turn_of_a_conversation_leads_to_its_state(learner: Learner, open_page: Open) -> None:
