@@ -181,7 +181,7 @@ class Provider:
             raise _failed(self.issuer, error) from None
         ways = metadata.get("token_endpoint_auth_methods_supported", ["client_secret_basic"])
         if self._secret is not None and "client_secret_basic" not in ways and "client_secret_post" in ways:
-            options["token_endpoint_auth_method"] = "client_secret_post"  # noqa: S105 - a name
+            options["token_endpoint_auth_method"] = "client_secret_post"  # noqa: S105 - the name of a method, no secret
         self._client, self._until = client, time.monotonic() + FRESH_SECONDS
         return client
 
