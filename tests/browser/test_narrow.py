@@ -91,3 +91,20 @@ def test_on_a_tablet_the_map_is_large_and_the_player_below_it(open_page: Open, l
     assert player["y"] + player["height"] <= 640
     page.keyboard.press("?")
     expect(page.get_by_role("dialog", name="Keys")).to_contain_text("the ring is the target")
+
+
+def test_on_a_tablet_many_labels_do_not_cover_what_is_below_them(open_page: Open, learner: Learner) -> None:
+    actions = ["noop", "jump", "up", "right", "left", "down", "jump right", "jump left"]
+    words = {"domain": "game", "subgoals": ["stair", "key"], "actions": actions, "renderer": "none"}
+    run = learner.create_run("many labels", vocabulary=words)
+    segment = {"subgoal": "stair", "states": list(range(41)), "actions": ["jump right"] * 40}
+    learner.ask(run, ask("label_lo", segments=[segment], context=[], suggestion=None))
+    page = open_page(f"/work?run={run}", size={"width": 768, "height": 1024})
+    wait_for_heading(page, ask("label_lo")["question"])
+    labels, skip = page.get_by_role("list", name="States").bounding_box(), page.get_by_role("button", name="Skip")
+    below = skip.bounding_box()
+    assert labels is not None
+    assert below is not None
+    assert labels["y"] + labels["height"] <= below["y"]
+    skip.click()
+    expect(page.get_by_role("dialog", name="Skip this question")).to_be_visible()
