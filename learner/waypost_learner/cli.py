@@ -90,6 +90,7 @@ def train(
     measure: Annotated[
         str | None, typer.Option(help="Instances on whose unseen ones to measure success after each change.")
     ] = None,
+    measure_every: Annotated[int, typer.Option(min=1, help="Episodes from one possible measurement to the next.")] = 1,
     log: Annotated[list[str] | None, typer.Option(help="Loggers: tensorboard (the default), wandb, mlflow.")] = None,
     patience: PatienceOption = 300.0,
     as_json: JsonOption = False,
@@ -134,7 +135,7 @@ def train(
         for part, instead in setup.missing.items():
             typer.echo(f"The domain {domain!r} provides no {part}. {instead}", err=True)
         folder = checkpoint_folder(checkpoints, store, server)
-        options = RunOptions(name, budget, resume, folder, threads, loggers, server, measure)
+        options = RunOptions(name, budget, resume, folder, threads, loggers, server, measure, measure_every)
         with ExitStack() as stack:
             connection = stack.enter_context(
                 connected(server, needed(token), expert == "oracle", patience)

@@ -33,7 +33,7 @@ from waypost_learner.policies.labels import (
     transformed_rows,
 )
 from waypost_learner.policies.levels import HIERARCHY, Levels
-from waypost_learner.policies.views import Evaluate, PolicyView, policy_view, shared_view
+from waypost_learner.policies.views import PolicyView, policy_view, shared_view
 from waypost_learner.presets.base import Preset
 from waypost_learner.rollout import streams
 from waypost_learner.rollout.experience import Experience, experience_of
@@ -41,6 +41,7 @@ from waypost_learner.rollout.lead import NO_LEAD, Lead
 from waypost_learner.rollout.policy_keys import META, PolicyKey, pi
 from waypost_learner.rollout.rollout import (
     Behavior,
+    Policies,
     Rollout,
     flat_rollout,
     hierarchical_rollout,
@@ -84,7 +85,7 @@ class Learner:
             key: self.shared or self._policy(key) for key in owners if key not in self.q
         }
         self.learned: dict[PolicyKey, Policy | SharedPolicy | QFunction] = {**self.imitators, **self.q}
-        self.policies = {key: self._evaluated(key) for key in keys}
+        self._keys = keys
         self.data = {key: Dataset(self.views[key].view.shape) for key in (keys if self.shared else self.imitators)}
         self.gate = make_gate(preset.gate, seed)
         self.explorations = dict(self._explorations(keys))
@@ -95,6 +96,13 @@ class Learner:
         # depends on its own data and generator alone, so the number of threads changes nothing but the time.
         torch.set_num_threads(1)
         self._threads = ThreadPoolExecutor(threads or os.cpu_count(), initializer=torch.set_num_threads, initargs=(1,))
+
+    @property
+    def policies(self) -> Policies:
+        """All policies as functions of observations. Take them again after they have learned."""
+        if self.shared is not None:
+            return self.shared.parts(self._keys)
+        return {key: self.views[key].wrap(self._own(key)) for key in self._keys}
 
     @property
     def use(self) -> DomainUse:
@@ -117,12 +125,10 @@ class Learner:
             return shared_view(self.domain, owner)
         return policy_view(self.domain, self._use(key), self.preset.training.network, key)
 
-    def _evaluated(self, key: PolicyKey) -> Evaluate:
-        if self.shared is not None:
-            return self.shared.of(key)
-        view, learned = self.views[key], self.learned[self.views[key].owner]
+    def _own(self, key: PolicyKey) -> Policy | QFunction:
+        learned = self.learned[self.views[key].owner]
         assert not isinstance(learned, SharedPolicy)
-        return view.wrap(learned)
+        return learned
 
     def _use(self, key: PolicyKey) -> DomainUse:
         use = self.preset.use

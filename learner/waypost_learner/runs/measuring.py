@@ -17,7 +17,7 @@ COLUMNS = ("episode", "units", "episodes", "successes")
 
 
 class Measuring:
-    """Writes a row after each episode in which the weights have changed since the last row.
+    """Writes a row after an episode if the weights have changed since the last row.
 
     Args:
         learner: the learner of the run.
@@ -25,12 +25,19 @@ class Measuring:
         file: the CSV file to write. A resumed run continues it.
         first: the run's first episode in this process. Rows of it and of later episodes are written again.
         units: returns the cost of all answers of the run.
+        every: the number of episodes from one possible row to the next.
     """
 
     def __init__(
-        self, learner: Learner, instances: Sequence[Any], file: Path, first: int, units: Callable[[], float]
+        self,
+        learner: Learner,
+        instances: Sequence[Any],
+        file: Path,
+        first: int,
+        units: Callable[[], float],
+        every: int = 1,
     ) -> None:
-        self._learner, self._instances, self._file, self._units = learner, instances, file, units
+        self._learner, self._instances, self._file, self._units, self._every = learner, instances, file, units, every
         self._weights = ""
         kept = [row for row in _rows(file) if int(row[0]) < first]
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -38,7 +45,9 @@ class Measuring:
             csv.writer(opened, lineterminator="\n").writerows([COLUMNS, *kept])
 
     def after(self, episode: int) -> None:
-        """Measure the policies after an episode, if their weights have changed."""
+        """Measure the policies after an episode, if it is one to measure after and their weights have changed."""
+        if (episode + 1) % self._every:
+            return
         weights = weights_hash(self._learner)
         if weights == self._weights:
             return

@@ -39,6 +39,7 @@ class RunOptions:
     loggers: tuple[str, ...] = ("tensorboard",)
     server: str | None = None  # the server's address, for the links of loggers to the run's page
     measure: str | None = None  # instances to measure the policies on after each change; no measurement if None
+    measure_every: int = 1  # episodes from one possible measurement to the next
 
 
 def train(
@@ -78,7 +79,10 @@ def train(
     measuring = None
     if measured is not None:
         file = path.with_suffix(".measured.csv")
-        measuring = Measuring(learner, measured, file, first.episodes, lambda: connection.learner.costs(run.id).total)
+        costs = connection.learner.costs
+        measuring = Measuring(
+            learner, measured, file, first.episodes, lambda: costs(run.id).total, options.measure_every
+        )
 
     def save(progress: Progress, weights_only: bool) -> None:
         checkpoints.write(path, learner, checkpoints.Header(run.id, config, progress), weights_only)

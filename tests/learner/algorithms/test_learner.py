@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.learner.kit import TINY, TINY_LEAN, drawn_mazes, examples, segment
 
-from waypost.trajectory import Segment, State, Trajectory, n_steps
+from waypost.trajectory import Observation, Segment, State, Trajectory, n_steps
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import Corridor, CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
@@ -25,7 +25,7 @@ from waypost_learner.policies.levels import Levels
 from waypost_learner.policies.networks import ConvNet, DenseNet, PlanningNet
 from waypost_learner.presets import find_preset
 from waypost_learner.rollout.policy_keys import META, pi
-from waypost_learner.rollout.rollout import run
+from waypost_learner.rollout.rollout import Outputs, run
 from waypost_learner.rollout.streams import TEST, TRAIN
 from waypost_learner.runs.missing_parts import missing_parts
 
@@ -181,15 +181,19 @@ def test_a_rollout_is_fixed_by_its_start_state_alone_whatever_was_started_before
 
 
 @pytest.mark.parametrize("levels", [Levels(), Levels(flat=True)])
-def test_rollouts_that_step_together_are_the_same_and_networks_evaluate_their_states_in_batches(levels: Levels) -> None:
+def test_rollouts_that_step_together_are_the_same_and_networks_evaluate_their_states_in_batches(
+    levels: Levels, monkeypatch: pytest.MonkeyPatch
+) -> None:
     instances = CorridorDomain().instances("random").train
     learner = Learner(CorridorDomain(), TINY, seed=0, levels=levels, threads=1)
     sizes: list[int] = []
+    evaluate = Policy.__call__
 
-    def counted(evaluate: Any) -> Any:
-        return lambda observations: (sizes.append(len(observations)), evaluate(observations))[1]
+    def counted(policy: Policy, observations: Observation) -> Outputs:
+        sizes.append(len(observations))
+        return evaluate(policy, observations)
 
-    learner.policies = {key: counted(policy) for key, policy in learner.policies.items()}
+    monkeypatch.setattr(Policy, "__call__", counted)
     starts = [learner.start(instance, draw) for draw, instance in enumerate(instances[:4])]
     alone = [contents(learner.roll_out(s)) for s in starts]
     assert max(sizes) == 1

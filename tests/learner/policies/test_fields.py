@@ -216,6 +216,35 @@ def test_fields_stay_finite_over_many_steps() -> None:
             assert all(bool(torch.isfinite(one).all()) for one in out.values())
 
 
+def test_gradients_stay_finite_where_the_task_is_behind_walls() -> None:
+    """There, the field around the agent is so small that the gradient of its logarithm is beyond float32."""
+    shared = taught(briefly(1), 1).shared
+    assert shared is not None
+    network, pictures, target = shared.network, torch.from_numpy(seen(1)[0][:1]), 2  # the target's channel
+    with torch.no_grad():
+        network.source.weight.zero_()[0, target] = -7.0  # the target is -1 there
+        network.gates[2].weight.zero_()
+        network.gates[2].bias.fill_(2.0)  # nearly shut, everywhere
+    flat = network(pictures)["flat"]
+    assert flat.max() < -90
+    torch.autograd.backward(flat[:, 0].sum())
+    gradients = [one.grad for one in (*network.source.parameters(), *network.gates.parameters())]
+    assert all(one is not None and bool(torch.isfinite(one).all()) for one in gradients)
+    assert any(one is not None and bool(one.any()) for one in gradients)
+
+
+def test_rollouts_compute_what_the_network_says_of_a_picture_once() -> None:
+    learner = taught(briefly(100), 2)
+    assert learner.shared is not None
+    rows: list[int] = []
+    learner.shared.acting.register_forward_hook(lambda _, inputs, __: rows.append(len(inputs[0])))
+    trajectories = [learner.roll_out(learner.start(instance, n)) for n, instance in enumerate(TRAIN[600:620])]
+    pictures = [{state.observation.tobytes() for segment in one for state in segment.states} for one in trajectories]
+    views = 1 + len(learner.shared.symmetries)
+    assert sum(rows) <= views * sum(map(len, pictures))
+    assert sum(map(len, trajectories)) > 2 * len(trajectories)  # mu was asked where subgoals had ended
+
+
 def test_fields_and_their_gradients_are_those_of_repeated_convolutions() -> None:
     rng = torch.Generator().manual_seed(0)
     gates, source = (torch.rand(3, 6, 5, dtype=torch.float64, generator=rng).requires_grad_() for _ in range(2))

@@ -54,6 +54,16 @@ def test_a_row_is_written_only_if_the_weights_have_changed_and_has_the_cost_so_f
     assert rows[1][2:] == [str(len(instances)), str(evaluate(learner, instances, len(instances)).successes)]
 
 
+def test_fewer_measurements_are_those_after_every_so_many_episodes(tmp_path: Path) -> None:
+    for name, every in (("all", 1), ("some", 4)):
+        with store(tmp_path / name) as (connection, options):
+            train(CONFIG, connection, replace(options, measure="random", measure_every=every))
+    every_row, some = ({row[0]: row for row in measured(tmp_path / name)} for name in ("all", "some"))
+    assert some
+    assert set(some) <= {"3", "7", "11"}
+    assert all(every_row[episode] == row for episode, row in some.items() if episode in every_row)
+
+
 def test_a_resumed_run_continues_its_rows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(driver, "CHECKPOINT_EVERY", 4)
 

@@ -16,7 +16,8 @@ from waypost_learner.policies.fields.agent_finder import AgentFinder, Transition
 from waypost_learner.policies.fields.spreading import spread
 from waypost_learner.policies.fields.symmetry_finder import NO_SYMMETRY, TURNS
 
-_LARGEST = 600.0  # the logarithm of about the largest number of float64
+_LARGEST = 690.0  # the logarithm of about the largest number of float64; gradients need a little room above it
+_LARGEST_GROWTH = 600.0  # of a field, as a logarithm: fields below exp(600 - 690) can then not be told apart
 
 
 @dataclass(frozen=True)
@@ -40,8 +41,13 @@ class FieldSpec:
         reach = 1 if self.reach is None else self.reach
         if min(self.far, reach, self.ending, self.features, self.hidden) < 1 or self.gain <= 0:
             raise ValueError("fields need far, reach, ending, features and hidden of at least 1, and gain above 0")
-        if self.far * math.log(self.gain) > _LARGEST:
+        if self.growth > _LARGEST_GROWTH:
             raise ValueError("fields could grow beyond all numbers: choose a smaller far or gain")
+
+    @property
+    def growth(self) -> float:
+        """The logarithm of how much a field can grow at most."""
+        return self.far * math.log(self.gain)
 
 
 _GATE_FEATURES = 16
@@ -51,7 +57,6 @@ _SHARP_GATES, _SHARP_SOURCE = 6.0, 15.0
 _OPEN = -1 / 3  # the first output of the gates, before its multiple: at first almost everything can be passed
 _FAINT = -3.0  # the first logit of a subgoal's ends
 _DETOUR = 2  # steps that the way to a corner of the square around the agent may take beyond the shortest
-_LEAST = 1e-300  # about the smallest number whose logarithm float64 can tell
 
 
 class FieldNet(nn.Module):
@@ -77,6 +82,9 @@ class FieldNet(nn.Module):
         super().__init__()
         channels, *sides = shape
         self.spec, self.n_actions = spec, n_actions
+        # Added to fields before their logarithms. The gradient of a logarithm is 1 / field, and spreads back to a
+        # source of which the field may be a multiple. With less than this, it could grow beyond float64.
+        self._least = math.exp(spec.growth - _LARGEST)
         self.finder = AgentFinder(channels, n_actions).requires_grad_(False)
         self.register_buffer("displacements", torch.full((n_actions, 9), 1 / 9))
         self.symmetries: torch.Tensor
@@ -137,16 +145,17 @@ class FieldNet(nn.Module):
         `termination` float32[B, subgoals]: logits of each beta_g. `flat` float32[B, actions]: logits of a flat policy.
         """
         spec, agent, reach = self.spec, self.finder.find(x), int(self.reach)
-        gates = torch.sigmoid(-_SHARP_GATES * self.gates(x)).double()
-        source = torch.softmax(_SHARP_SOURCE * self.source(x).flatten(1), 1).view_as(gates).double()
+        # All that fields are made of is float64: a gradient on the way back to it can be far beyond float32.
+        gates = torch.sigmoid(-_SHARP_GATES * self.gates(x).double())
+        source = torch.softmax(_SHARP_SOURCE * self.source(x).double().flatten(1), 1).view_as(gates)
         task = self._spread(gates, source, spec.far)
         patch, near_gates, near_task = (_around(one, agent, reach) for one in (x, gates, task))
-        ends = near_gates * torch.sigmoid(self._ends(patch)).double()  # a subgoal ends only where one can pass
+        ends = near_gates * torch.sigmoid(self._ends(patch).double())  # a subgoal ends only where one can pass
         both = torch.cat([ends, ends * near_task], 1)
         subgoals = self._spread(near_gates.expand_as(both), both, min(2 * reach + _DETOUR, spec.far))
         lo, hi = subgoals.chunk(2, 1)
         return {
-            "hi": torch.log(hi[:, :, reach, reach] + _LEAST).float(),
+            "hi": torch.log(hi[:, :, reach, reach] + self._least).float(),
             "lo": self._climb(lo[:, :, reach - 1 : reach + 2, reach - 1 : reach + 2]),
             "seen": ends.flatten(2).amax(2).float(),
             "termination": self.termination(_around(x, agent, spec.ending)),
@@ -171,7 +180,7 @@ class FieldNet(nn.Module):
 
     def _climb(self, around: torch.Tensor) -> torch.Tensor:
         """Return the logits of actions float32[B, K, actions], given fields float64[B, K, 3, 3] around the agent."""
-        return torch.log(around.flatten(2) @ self.displacements.double().T + _LEAST).float()
+        return torch.log(around.flatten(2) @ self.displacements.double().T + self._least).float()
 
 
 def _around(x: torch.Tensor, agent: torch.Tensor, reach: int) -> torch.Tensor:

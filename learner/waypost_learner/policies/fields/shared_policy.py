@@ -1,7 +1,8 @@
 """One network for all imitation policies, which plans by spreading fields (`FieldNet`), and its Train."""
 
+import hashlib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -138,7 +139,7 @@ class SharedPolicy:
         """Return what each symmetric view of the pictures says, transformed back, [views, B, ...]."""
         n, symmetries = len(observations), self.symmetries
         seen = [observations, *(np.stack([each.observe(one) for one in observations]) for each in symmetries)]
-        out = self.acting(as_input(np.concatenate(seen)))
+        out = self.acting(to_device(as_input(np.concatenate(seen))))
         out["lo"] = _mixed(out["lo"], out["flat"].unsqueeze(1), _UNSEEN / (_UNSEEN + out["seen"].unsqueeze(2)))
         subgoals: list[slice | list[int]] = [slice(None), *(list(each.subgoals) for each in symmetries)]
         actions: list[slice | list[int]] = [slice(None), *(list(each.actions) for each in symmetries)]
@@ -157,9 +158,10 @@ class SharedPolicy:
             "flat": stacked("flat", actions),
         }
 
-    def of(self, key: PolicyKey) -> "PartPolicy":
-        """Return one policy as a function of observations."""
-        return PartPolicy(self, key)
+    def parts(self, keys: Sequence[PolicyKey]) -> "dict[PolicyKey, PartPolicy]":
+        """Return policies as functions of observations. They remember outputs, so they must not outlive an update."""
+        remembered = _Remembered(self.outputs)
+        return {key: PartPolicy(remembered, key) for key in keys}
 
     def see(self, transitions: Sequence[Row], ends: Sequence[Row]) -> None:
         """Learn where the agent is in a picture, where each action moves it, and how far away subgoals end.
@@ -219,7 +221,7 @@ class SharedPolicy:
             loss = self._loss(self.network(to_device(batch.observations)), batch)
             self.optimizer.zero_grad()
             torch.autograd.backward(loss)
-            nn.utils.clip_grad_norm_(self._trained, _CLIP)
+            nn.utils.clip_grad_norm_(self._trained, _CLIP, error_if_nonfinite=True)
             self.optimizer.step()
             self.average.update_parameters(self.network)
         self.network.eval()
@@ -244,16 +246,39 @@ class SharedPolicy:
         )
 
 
+class _Remembered:
+    """What the network says of pictures, computed once for each.
+
+    Where a subgoal ends, three policies are asked about the same picture: its pi_g, mu, and the next pi_g. A policy
+    that is lost sees the same pictures again and again.
+    """
+
+    def __init__(self, compute: Callable[[Observation], Mapping[str, torch.Tensor]]) -> None:
+        self._compute = compute
+        self._known: dict[bytes, Mapping[str, torch.Tensor]] = {}
+
+    def __call__(self, observations: Observation) -> dict[str, torch.Tensor]:
+        """Return the outputs for a batch of pictures."""
+        pictures = [hashlib.blake2b(one.tobytes(), digest_size=16).digest() for one in observations]
+        new = {picture: row for row, picture in enumerate(pictures) if picture not in self._known}
+        if new:
+            out = self._compute(observations[list(new.values())])
+            for row, picture in enumerate(new):
+                self._known[picture] = {name: one[row] for name, one in out.items()}
+        rows = [self._known[picture] for picture in pictures]
+        return {name: torch.stack([row[name] for row in rows]) for name in rows[0]}
+
+
 class PartPolicy:
     """One of the policies that share a network."""
 
-    def __init__(self, shared: SharedPolicy, key: PolicyKey) -> None:
-        self._shared, self._key = shared, key
+    def __init__(self, outputs: Callable[[Observation], Mapping[str, torch.Tensor]], key: PolicyKey) -> None:
+        self._outputs, self._key = outputs, key
 
     @torch.inference_mode()
     def __call__(self, observations: Observation) -> Outputs:
         """Return the outputs for a batch float32 or uint8[B, C, rows, columns]."""
-        out = self._shared.outputs(observations)
+        out = self._outputs(observations)
         none = np.zeros(len(observations), np.float32)
         if self._key == META:
             return Outputs(out["hi"].cpu().numpy(), none)
