@@ -57,12 +57,12 @@ class Maze:
 
 
 def cell_of(view: Any) -> Cell:
-    """Return the cell of a state's JSON view, [row, column].
+    """Return the cell of a state's JSON view, which begins with its row and column.
 
     Raises:
-        ValueError: the cell is outside the maze.
+        ValueError: the cell is outside the maze, or the view has no two numbers.
     """
-    row, column = view
+    row, column = view[:2]
     if not (0 <= row < SIZE and 0 <= column < SIZE):
         raise ValueError(f"({row}, {column}) is outside the maze")
     return int(row), int(column)
