@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
+from waypost import tracing
 from waypost.wire import Assignment, Receipt, RunPatch
 from waypost_learner.commands import (
     JsonOption,
@@ -136,6 +137,7 @@ def train(
             typer.echo(f"The domain {domain!r} provides no {part}. {instead}", err=True)
         folder = checkpoint_folder(checkpoints, store, server)
         options = RunOptions(name, budget, resume, folder, threads, loggers, server, measure, measure_every)
+        tracing.install("waypost-learner")
         with ExitStack() as stack:
             connection = stack.enter_context(
                 connected(server, needed(token), expert == "oracle", patience)
@@ -143,6 +145,7 @@ def train(
                 else embedded(store or Path("waypost.db"))
             )
             progress = stack.enter_context(TrainingProgress(episodes))
+            stack.callback(tracing.flush)
             summary = train_run(config, connection, options, progress.start, progress.episode, _tell)
     _print_summary(summary, as_json)
 

@@ -9,6 +9,7 @@ from fastapi import FastAPI
 from starlette.middleware.gzip import GZipMiddleware
 from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 
+from waypost import tracing
 from waypost_server.answers import routes as answers
 from waypost_server.answers.review import routes as review
 from waypost_server.auth import oidc, refusals
@@ -114,6 +115,7 @@ async def _lifespan(app: FastAPI, settings: Settings, traffic: Traffic) -> Async
     finally:
         hub.close()
         await asyncio.to_thread(db.close)
+        await asyncio.to_thread(tracing.flush)
 
 
 async def _end_expired_leases(context: Context) -> None:

@@ -9,7 +9,7 @@ from tests.repository.kit import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 EXTRAS = PROJECT["project"]["optional-dependencies"]
-BASE = PROJECT["project"]["dependencies"] + EXTRAS["oidc"]
+BASE = PROJECT["project"]["dependencies"] + EXTRAS["oidc"] + EXTRAS["telemetry"]
 LEARNER = EXTRAS["learner"]
 FILES = ("build", "server", "learner", "torch")
 IMAGES = (ROOT / "Dockerfile").read_text().replace("\\\n", " ")

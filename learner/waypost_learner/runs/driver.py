@@ -11,7 +11,7 @@ queries and pays for each only once.
 import time
 from collections import deque
 from collections.abc import Callable, Generator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -20,6 +20,7 @@ import numpy as np
 from waypost import wire
 from waypost.client import Refused
 from waypost.domains import interval_of_tests, replay_of
+from waypost.tracing import Step
 from waypost_learner.algorithms import Episode
 from waypost_learner.algorithms.queries import HierDemo, Query
 from waypost_learner.algorithms.uninspected import uninspected
@@ -74,6 +75,7 @@ class OpenEpisode:
     units: float = 0  # the cost of its answers
     labels: Labels | None = None  # its labels, once it has ended
     withdraw: Withdraw = lambda: None  # withdraws the offer of its environment
+    began: int = field(default_factory=time.time_ns)  # in nanoseconds since the epoch
 
     def resume(self, resume: Callable[[], Query]) -> Query | None:
         """Return the algorithm's next query; None if the episode has ended, with `labels` set."""
@@ -249,7 +251,9 @@ class Driver:
     def _apply(self, episode: OpenEpisode) -> None:
         """Learn from an episode, test on an unseen instance if a test is due, and report both."""
         assert episode.labels is not None
+        learning = Step("learn", self._queue.run, episode.number)
         self._learner.learn(episode.labels)
+        learning.end()
         if episode.passed is not None:
             self._passes = self._passes + 1 if episode.passed else 0
         test_every = self._config.test_every or interval_of_tests(self._learner.domain)
@@ -258,6 +262,7 @@ class Driver:
             self._test(episode.number)
         result = self._result(episode, tested)
         self._queue.report(result)
+        Step("episode", self._queue.run, episode.number, {"waypost.units": episode.units}, episode.began).end_as_first()
         self._applied += 1
         if self._applied % self._checkpoint_every == 0:
             self._hooks.checkpoint(self.progress)

@@ -18,7 +18,7 @@ class RunQueue:
     """
 
     def __init__(self, client: Client, run: str, pictures: bool = False) -> None:
-        self._client, self._run, self.pictures = client, run, pictures
+        self._client, self.run, self.pictures = client, run, pictures
         self._cursor = 0
 
     def ask(self, ask: wire.Ask, frames: Mapping[str, bytes]) -> int:
@@ -34,7 +34,7 @@ class RunQueue:
         """
         if frames:
             self._client.upload(frames)
-        (asked,) = self._client.ask(self._run, [ask])
+        (asked,) = self._client.ask(self.run, [ask])
         return asked.id
 
     def use(self, query: int) -> wire.Query | None:
@@ -48,10 +48,10 @@ class RunQueue:
 
     def answered(self) -> set[int]:
         """Return the queries answered since the last call, after waiting up to `POLL_SECONDS` for the first."""
-        page = self._client.answers(self._run, self._cursor, wait=POLL_SECONDS)
+        page = self._client.answers(self.run, self._cursor, wait=POLL_SECONDS)
         self._cursor = page.cursor
         return {query.id for query in page.queries}
 
     def report(self, result: wire.EpisodeResult) -> None:
         """Report an episode's result."""
-        self._client.report(self._run, [result])
+        self._client.report(self.run, [result])

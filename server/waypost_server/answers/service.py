@@ -179,6 +179,15 @@ def _accept(tx: Tx, post: Post, case: Case, wanted: LeaseRequest | None) -> wire
             stored.active_seconds,
         )
         ledger.charge(tx, entry, case.query.reserve)
+    tx.trace(
+        "answer",
+        case.run.id,
+        case.query.episode,
+        since=case.assignment.leased_at,
+        query=case.query.id,
+        kind=case.query.kind,
+        answer=stored.id,
+    )
     _END.run(tx.conn, {"assignment": case.assignment.id, "now": tx.now})
     differs = scoring.differ(case.ask.suggestion, post.answer)
     _CLOSE.run(tx.conn, {"query": case.query.id, "answer": stored.id, "differs": differs})

@@ -14,6 +14,7 @@ from types import FrameType
 
 from uvicorn.config import STARTUP_FAILURE
 
+from waypost import tracing
 from waypost_server import serving
 from waypost_server.app import create_app
 from waypost_server.db.engine import parse
@@ -112,6 +113,7 @@ def _work(settings: Settings, bound: socket.socket) -> None:
     os.setsid()  # Ctrl-C in a terminal reaches the first process alone, which passes it on once
     threading.Thread(target=_end_with_parent, daemon=True).start()
     logs.install(settings.log_format, with_requests=settings.log_requests)
+    tracing.install("waypost-server")
     serving.foreground(create_app(settings), bound, settings.drain_seconds)
 
 

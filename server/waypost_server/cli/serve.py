@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 from pydantic import ValidationError
 
-from waypost import wire
+from waypost import tracing, wire
 from waypost_server import serving
 from waypost_server.app import create_app
 from waypost_server.auth import sessions
@@ -73,6 +73,7 @@ def _serve(
     if n_processes > 1:
         processes.serve(chosen, bound, n_processes)
     else:
+        tracing.install("waypost-server")
         serving.foreground(app, bound, chosen.drain_seconds)
 
 

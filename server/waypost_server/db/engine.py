@@ -7,7 +7,7 @@ one connection, which writes and commits many transactions at once (`db.writer`)
 import asyncio
 import sqlite3
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, TypeVar
@@ -16,6 +16,7 @@ from sqlalchemy import Connection, Engine, create_engine, event, make_url
 from sqlalchemy.engine import URL
 from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
 
+from waypost.tracing import Step
 from waypost_server import errors
 from waypost_server.db import audit, schema
 from waypost_server.db.counts import Count, Counts
@@ -103,21 +104,29 @@ class Database:
         return self._writer.load
 
     def _submit(self, work: Callable[[Tx], T]) -> Future[T]:
-        """Queue a transaction that ends with its rows of the audit log. Once it is committed, its counts are added."""
+        """Queue a transaction that ends with its rows of the audit log.
+
+        Once it is committed, its counts are added, and its steps end.
+        """
         counted: Mapping[Count, int] = {}
+        traced: Sequence[Step] = ()
 
         def run(conn: Connection, topics: Topics) -> T:
-            nonlocal counted
+            nonlocal counted, traced
             tx = Tx(conn, topics)
             result = work(tx)
             if tx.recorded:
                 audit.append(conn, tx.recorded)
-            counted = tx.counted
+            counted, traced = tx.counted, tx.traced
             return result
 
         def done(future: Future[T]) -> None:
-            if counted and not future.cancelled() and future.exception() is None:
+            if future.cancelled() or future.exception() is not None:
+                return
+            if counted:
                 self.counts.add(counted)
+            for step in traced:
+                step.end()
 
         future = self._writer.submit(run)
         future.add_done_callback(done)

@@ -1,5 +1,6 @@
-"""A transaction: connection, time, audit log, topics to wake, counts. Every SQL statement runs in one."""
+"""A transaction: connection, time, audit log, topics to wake, counts, traces. Every SQL statement runs in one."""
 
+import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -10,6 +11,7 @@ from sqlalchemy import Connection, Table
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.sql import select
 
+from waypost.tracing import Step
 from waypost_server.db.audit import Entry
 from waypost_server.db.counts import Count
 from waypost_server.db.functions import clock
@@ -17,6 +19,8 @@ from waypost_server.db.prepared import Prepared, run_sql
 from waypost_server.db.wakeups import Topics
 
 _NOW = Prepared(select(clock().label("now")))
+
+NANO = 1_000_000_000
 
 UPSERTS: dict[str, Callable[[Table], Any]] = {"sqlite": sqlite.insert, "postgresql": postgresql.insert}
 """By dialect: an INSERT with `on_conflict_do_...`."""
@@ -30,6 +34,8 @@ class Tx:
     topics: Topics = field(default_factory=set)
     recorded: list[Entry] = field(default_factory=list)
     counted: Counter[Count] = field(default_factory=Counter)
+    traced: list[Step] = field(default_factory=list)
+    _began: int = field(default_factory=time.time_ns)
     _now: float | None = None
 
     @property
@@ -48,11 +54,12 @@ class Tx:
     def part(self) -> Iterator[None]:
         """Run a part of the transaction. If it fails, only the part is undone."""
         run_sql(self.conn, "SAVEPOINT part")
-        recorded, counted = len(self.recorded), self.counted.copy()
+        recorded, counted, traced = len(self.recorded), self.counted.copy(), len(self.traced)
         try:
             yield
         except BaseException:
             del self.recorded[recorded:]
+            del self.traced[traced:]
             self.counted = counted
             if not self.conn.invalidated:
                 run_sql(self.conn, "ROLLBACK TO SAVEPOINT part")
@@ -71,6 +78,17 @@ class Tx:
     def count(self, what: str, kind: str, n: int = 1) -> None:
         """Count for metrics what this transaction does. Once it is committed, the counts are added (`db.counts`)."""
         self.counted[what, kind] += n
+
+    def trace(
+        self, name: str, run: str, episode: int, since: float | None = None, **attributes: str | int | float
+    ) -> None:
+        """Add what this transaction does to the trace of an episode. Once it is committed, the step ends.
+
+        It began with the transaction, or at `since`, in seconds since the epoch.
+        """
+        named = {f"waypost.{attribute}": value for attribute, value in attributes.items()}
+        began = self._began if since is None else int(since * NANO)
+        self.traced.append(Step(name, run, episode, named, began))
 
     def record(self, entry: Entry) -> None:
         """Record in the audit log what this transaction does. The row is appended as its last statement."""

@@ -89,7 +89,10 @@ def _grant(tx: Tx, request: LeaseRequest, query: int) -> wire.Assignment:
         after=request.after,
         tab=request.tab,
     )
-    return view(tx, assignment)
+    leased = view(tx, assignment)
+    ask = leased.query.ask
+    tx.trace("lease", leased.run.id, ask.episode, query=query, kind=ask.kind, assignment=assignment)
+    return leased
 
 
 def grant(

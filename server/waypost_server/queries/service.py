@@ -237,6 +237,7 @@ def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, re
     for query, one in zip(ids, new, strict=True):
         data = {"query": query, "kind": one.ask.kind, "episode": one.ask.episode, "ordinal": one.ask.ordinal}
         events.add(tx, run_row.id, "asked", data)
+        tx.trace("ask", run_row.id, one.ask.episode, query=query, kind=one.ask.kind)
     return ids
 
 
@@ -274,4 +275,5 @@ def use(tx: Tx, query: int, user: int) -> wire.Query:
         raise errors.NotAnswered(f"Query {query} is {now.state}; wait for its answer.")
     if changed.rowcount:
         events.add(tx, now.run, "used", {"query": query, "answer": now.answer_id})
+        tx.trace("use", now.run, now.ask.episode, query=query, kind=now.ask.kind)
     return now

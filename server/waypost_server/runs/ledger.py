@@ -118,6 +118,8 @@ def _write(tx: Tx, kind: str, entry: Entry, sign: int) -> None:
     }
     _WRITE.run(tx.conn, row)
     tx.count("units", kind, entry.cost.units)
+    units = sign * to_units(entry.cost.units)
+    tx.trace(kind, entry.run, entry.episode, query=entry.query, answer=entry.answer, units=units)
 
 
 def _change(tx: Tx, run: str, spent: int, reserved: int) -> None:
