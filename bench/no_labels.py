@@ -7,8 +7,10 @@ it has been. The script prints a table with a row for each seed and asserts noth
 """
 
 import argparse
+import csv
 from collections import defaultdict, deque
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -100,12 +102,14 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=500, help="steps in training mazes; default: %(default)s")
     parser.add_argument("--seeds", type=int, default=10, help="default: %(default)s")
     parser.add_argument("--episodes", type=int, default=1_000, help="default: %(default)s")
+    parser.add_argument("--to", type=Path, help="a CSV file to write the shares of success to, too")
     arguments = parser.parse_args()
     domain: Any = find_domain("maze")
     view, env = domain.flat_view, domain.make_env()
     train, tests = domain.instances("random").train, domain.instances(arguments.instances).test[: arguments.episodes]
     print("| seed | rewards that were found | success of the planner | of random actions |")
     print("|---|---|---|---|")
+    rows = []
     for seed in range(arguments.seeds):
         rng = np.random.default_rng(seed)
         rewards = explored(env, train, view, arguments.steps, rng)
@@ -117,10 +121,11 @@ def main() -> None:
             return int(draws.integers(len(domain.actions)))
 
         found = ", ".join(f"{reward:g}" for reward in sorted(rewards.values()))
-        print(
-            f"| {seed} | {found} | {success_rate(env, tests, plan):.1%} | {success_rate(env, tests, draw):.1%} |",
-            flush=True,
-        )
+        rows.append((seed, success_rate(env, tests, plan), success_rate(env, tests, draw)))
+        print(f"| {seed} | {found} | {rows[-1][1]:.1%} | {rows[-1][2]:.1%} |", flush=True)
+    if arguments.to is not None:
+        with arguments.to.open("w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows([("seed", "planner", "random"), *rows])
 
 
 if __name__ == "__main__":
