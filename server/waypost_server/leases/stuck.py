@@ -5,7 +5,7 @@ from typing import Any
 from sqlalchemy import Row, and_, exists, func, or_, select
 
 from waypost import wire
-from waypost_server.db.tables import assignments, presence, queries, users
+from waypost_server.db.tables import assignments, comments, presence, queries, users
 from waypost_server.db.transaction import Tx
 from waypost_server.leases.presence import accepts, has_skipped
 from waypost_server.runs import service as runs
@@ -32,6 +32,8 @@ def _pending(tx: Tx, run: str) -> Any:
     """Select the queries of a run that have no answer, oldest first, with their leases and skips."""
     leases = assignments.c.query_id == queries.c.id
     ended = select(func.max(assignments.c.ended_at)).where(leases).scalar_subquery()
+    returns = comments.c.query_id == queries.c.id, comments.c.answer_id.is_not(None)
+    returned = select(func.max(comments.c.created_at)).where(*returns).scalar_subquery()
     expiries = select(func.count()).where(leases, assignments.c.state == "expired").scalar_subquery()
     recent = and_(
         presence.c.asked_at > tx.now - DAY,
@@ -40,7 +42,7 @@ def _pending(tx: Tx, run: str) -> Any:
     )
     return (
         select(queries.c.id, queries.c.episode, queries.c.kind, queries.c.state, queries.c.created_at)
-        .add_columns(ended.label("ended_at"), expiries.label("expiries"))
+        .add_columns(ended.label("ended_at"), returned.label("returned_at"), expiries.label("expiries"))
         .add_columns(and_(exists().where(recent), ~exists().where(recent, ~has_skipped())).label("skipped"))
         .where(queries.c.run_id == run, or_(queries.c.state == "open", queries.c.state == "leased"))
         .order_by(queries.c.id)
@@ -48,7 +50,7 @@ def _pending(tx: Tx, run: str) -> Any:
 
 
 def _stuck(row: Row[Any], now: float) -> wire.StuckQuery:
-    since = max(row.created_at, row.ended_at or 0.0)
+    since = max(row.created_at, row.ended_at or 0.0, row.returned_at or 0.0)
     waits = row.state == "open"
     reasons: dict[wire.StuckReason, bool] = {
         "waiting": waits and since < now - WAITING_SECONDS,

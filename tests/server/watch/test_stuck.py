@@ -63,6 +63,16 @@ def test_a_query_is_stuck_that_is_open_for_more_than_ten_minutes(service: Servic
     assert stuck(service, run) == [(first, ["waiting"]), (first + 1, ["waiting"])]
 
 
+def test_the_time_of_a_query_that_was_sent_back_begins_anew(service: Service) -> None:
+    run = service.learner.create_run()
+    (asked,) = ids(service.learner.ask(run, query()))
+    given = service.annotator.answer(service.annotator.lease(run=run))
+    age(service, 3600)
+    body = {"answer": given["answer"], "text": "It burned in the lava."}
+    service.learner.post(f"/queries/{asked}/send-back", body, 201)
+    assert stuck(service, run) == []
+
+
 def test_a_query_is_stuck_whose_leases_expired_twice(service: Service) -> None:
     run = service.learner.create_run()
     (asked,) = ids(service.learner.ask(run, query()))
