@@ -17,6 +17,7 @@ from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
 NAMES: dict[str, Any] = {"subgoals": ["door", "key"], "actions": ["left", "right"]}
+DARK = np.zeros((2, 2, 3), np.uint8)
 WALK = waypost.Segment(states=[0, 1, 2], actions=["right", "right"], subgoal="door")
 BACK = waypost.Segment(states=[2, 1], actions=["left"], subgoal="key")
 
@@ -149,6 +150,19 @@ def test_pictures_are_uploaded_and_annotators_can_load_them(service):
     first, second, third = ask.segments[0].frames
     assert first != second == third
     assert service.annotator._http.get(f"/frames/{first}").content.startswith(b"\x89PNG")
+
+
+def test_places_of_subgoals_in_the_pictures_come_with_them(service):
+    run = service.start()
+    door, key = (0.5, 0.1, 1, 0.2), (0, 0.25, 0.5, 0.75)
+    pictures = [np.full((4, 6, 3), shade, np.uint8) for shade in (0, 128)]
+    for episode, landmarks in enumerate(([{"door": door, "key": key}], [{"door": door}, {}])):
+        segment = waypost.Segment([0, 1], ["left"], "door", pictures, landmarks)
+        run.ask(waypost.LabelHi([segment], episode=episode))
+        ask = service.lease().query.ask
+        assert isinstance(ask, wire.AskLabelHi)
+        found = [{g: (b.left, b.top, b.right, b.bottom) for g, b in one.items()} for one in ask.segments[0].landmarks]
+        assert found == landmarks
 
 
 # --- waiting for answers
@@ -405,6 +419,18 @@ def test_a_result_is_kept_with_the_finished_run(service):
         (
             lambda: waypost.Segment([0, 1], ["left"], pictures=[b""]),
             "has 1 pictures and 2 states; give one picture per",
+        ),
+        (
+            lambda: waypost.Segment([0, 1], ["left"], "door", landmarks=[{"door": (0, 0, 1, 1)}]),
+            "has landmarks 1 times, 2 states and 0 pictures; give landmarks with pictures only",
+        ),
+        (
+            lambda: waypost.Segment([0], [], "door", [b""], [{"door": (0.5, 0, 0.5, 1)}]),
+            r"the box of 'door' is \(0.5, 0, 0.5, 1\); give its left, upper",
+        ),
+        (
+            lambda: waypost.LabelHi([waypost.Segment([0], [], "door", [DARK], [{"gate": (0, 0, 1, 1)}])], episode=0),
+            "no subgoal 'gate'; .*: door, key",
         ),
         (lambda: waypost.InspectFull([waypost.Segment([0, 1], ["up"])], episode=0), "no action 'up'; .*: left, right"),
         (lambda: waypost.InspectLo(waypost.Segment([0], [], "dor"), episode=0), "no subgoal 'dor'; .*: door, key"),

@@ -14,6 +14,9 @@ from typing import Any, Generic, TypeVar
 from waypost import wire
 from waypost.runs.pictures import Picture, digest, png
 
+Sides = tuple[float, float, float, float]
+"""The left, upper, right and lower side of a box in a picture, as shares of its width and height."""
+
 A = TypeVar("A", covariant=True)
 """The type of the answers to a kind of query."""
 
@@ -27,15 +30,18 @@ class Segment:
         actions: H names of actions.
         subgoal: the name of the subgoal that the actions were to reach; None if the policy has no subgoals.
         pictures: H + 1 pictures of the states, or none; PNG files in bytes, or arrays uint8[rows, columns, 3].
+        landmarks: where subgoals are in the pictures: for each state, or once for all states, boxes by subgoal. A box
+            is its left, upper, right and lower side, as shares of the picture's width and height, 0 to 1.
 
     Raises:
-        ValueError: there is not one state more than actions, or not one picture per state.
+        ValueError: there is not one state more than actions, or not one picture per state, or landmarks do not fit.
     """
 
     states: Sequence[Any]
     actions: Sequence[str]
     subgoal: str | None = None
     pictures: Sequence[Picture] = ()
+    landmarks: Sequence[Mapping[str, Sides]] = ()
 
     def __post_init__(self) -> None:
         n_states, n_actions, n_pictures = len(self.states), len(self.actions), len(self.pictures)
@@ -48,6 +54,17 @@ class Segment:
             raise ValueError(
                 f"the segment has {n_pictures} pictures and {n_states} states; give one picture per state, or none"
             )
+        if len(self.landmarks) not in ((0, 1, n_states) if n_pictures else (0,)):
+            raise ValueError(
+                f"the segment has landmarks {len(self.landmarks)} times, {n_states} states and {n_pictures} pictures; "
+                "give landmarks with pictures only, and then for each state, or once for all"
+            )
+        for subgoal, (left, top, right, bottom) in (item for one in self.landmarks for item in one.items()):
+            if not (0 <= left < right <= 1 and 0 <= top < bottom <= 1):
+                raise ValueError(
+                    f"the box of {subgoal!r} is {(left, top, right, bottom)}; give its left, upper, right and lower "
+                    "side, as shares of the picture's width and height, 0 to 1"
+                )
 
     @cached_property
     def message(self) -> wire.Segment:
@@ -57,6 +74,7 @@ class Segment:
             states=_json(self.states),
             actions=list(self.actions),
             frames=[digest(file) for file in self._files],
+            landmarks=[{subgoal: _box(*sides) for subgoal, sides in one.items()} for one in self.landmarks],
         )
 
     @property
@@ -291,13 +309,18 @@ def check_names(query: Query[Any], vocabulary: wire.Vocabulary) -> None:
     """
     for segment in (*query.context, *query.asked):
         names = (("action", name, vocabulary.actions) for name in segment.actions)
-        subgoal = () if segment.subgoal is None else (("subgoal", segment.subgoal, vocabulary.subgoals),)
-        for what, name, declared in (*subgoal, *names):
+        chosen = () if segment.subgoal is None else (segment.subgoal,)
+        subgoals = (*chosen, *(name for one in segment.landmarks for name in one))
+        for what, name, declared in (*(("subgoal", name, vocabulary.subgoals) for name in subgoals), *names):
             if name not in declared:
                 known = ", ".join(declared) or "none"
                 raise ValueError(f"the run has no {what} {name!r}; the names that it declares are: {known}")
     if isinstance(query, InspectLo | LabelLo) and query.segment.subgoal is None:
         raise ValueError(f"a segment in {type(query).__name__} needs a subgoal, because the question is about it")
+
+
+def _box(left: float, top: float, right: float, bottom: float) -> wire.Box:
+    return wire.Box(left=left, top=top, right=right, bottom=bottom)
 
 
 def _json(value: Any) -> Any:
