@@ -120,6 +120,7 @@ class Gallery:
             self.page.get_by_role("link", name="Label_HI").first.click()
             self.page.get_by_role("heading", name="In the ledger").wait_for()
             self.take("query")
+            self.visit("review", f"/runs/{run}/review", there_is_a_heading)
             self.visit("overlay", f"/runs/compare?{'&'.join(f'run={one}' for one in others)}", there_is_a_chart)
 
     def practice(self) -> None:

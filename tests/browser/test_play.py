@@ -233,6 +233,23 @@ def test_a_move_gets_a_key_of_its_own_but_none_that_is_in_use(open_page: Open, l
     expect(steps(page)).to_have_text("1")
 
 
+def test_a_click_in_a_box_of_the_picture_chooses_the_next_subgoal(
+    open_page: Open, learner: Learner, stage: Stage
+) -> None:
+    run = learner.create_run("boxes", vocabulary=vocabulary(CorridorDomain()).model_dump())
+    demo = HierDemo(Simulator(CORRIDOR.domain).reset(CORRIDOR.instance), flat=False)
+    [query] = learner.ask(run, CORRIDOR.ask(demo, 0, 0).model_dump())
+    stage(learner.served, query, CORRIDOR)
+    page = open_page(f"/work?run={run}", motion="reduce")
+    page.locator("[data-stage=here]").wait_for()
+    for subgoal, keys in (("east", ["a", "Enter"]), ("target", ["a", "a"])):
+        page.get_by_role("button", name=f"Choose the subgoal {subgoal}").click()
+        press(page, *keys)
+    send(page)
+    segments = learner.answer_of(query)["segments"]
+    assert [(one["subgoal"], one["actions"]) for one in segments] == [("east", ["east"]), ("target", ["east", "east"])]
+
+
 @pytest.mark.parametrize("flat", [False, True])
 def test_a_domain_without_a_renderer_is_played_with_letters(
     open_page: Open, learner: Learner, stage: Stage, flat: bool
