@@ -50,7 +50,7 @@ Refusal
 ├── TooManyMessages        429  too many messages on a play socket
 ├── ProviderFailed         502  the OpenID provider cannot be reached, or fails
 ├── Stopping               503  the server is about to stop; another one may be ready
-└── StorageFailed          503  the database failed and nothing was stored; try again
+└── StorageFailed          503  the database failed; the refusal says that nothing was stored, or that this is not known
     └── StoreBusy               too many requests wait to store something
 """
 
@@ -377,7 +377,7 @@ class Stopping(Refusal):
 
 
 class StorageFailed(Refusal):
-    """The database failed. Nothing was stored, so send the same request again."""
+    """The database failed. `detail` says that nothing was stored, or that this is not known: send the same again."""
 
     status, name, title = 503, "storage-failed", "The store failed"
 

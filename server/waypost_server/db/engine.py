@@ -74,7 +74,8 @@ class Database:
         """Run a transaction and return its result once it is on disk.
 
         Raises:
-            StorageFailed, StoreBusy: nothing was stored.
+            StorageFailed: nothing was stored, or it is not known whether.
+            StoreBusy: nothing was stored.
         """
         return self._submit(work).result()
 
@@ -90,7 +91,8 @@ class Database:
         """Run a transaction off the event loop and return its result once it is on disk.
 
         Raises:
-            StorageFailed, StoreBusy: nothing was stored.
+            StorageFailed: nothing was stored, or it is not known whether.
+            StoreBusy: nothing was stored.
         """
         return await asyncio.wrap_future(self._submit(work))
 

@@ -160,21 +160,24 @@ class GroupCommit:
         in the queue. Otherwise the wait would start anew for each of them.
         """
         groups = deque([batch])
+        unsure = False  # whether the batch may be in the files although its commit failed
         while groups:
             group = groups.popleft()
             try:
                 conn = self._begin()
             except Exception as error:
-                _fail(chain(group, *groups, self._take(self._jobs.qsize(), wait=False)), error)
+                _fail(chain(group, *groups), error, unsure)
+                _fail(self._take(self._jobs.qsize(), wait=False), error)
                 return
             try:
                 self._commit(conn, group)
-            except DBAPIError as error:
+            except (DBAPIError, _CommitFailed) as error:
                 self._disconnect()
+                unsure = unsure or isinstance(error, _CommitFailed)
                 if len(group) > 1:
                     groups.extend([job] for job in group)
                 else:
-                    _fail(group, error)
+                    _fail(group, error, unsure)
             except Exception as error:
                 self._disconnect()
                 _fail(group, error)
@@ -201,21 +204,25 @@ class GroupCommit:
             outcomes = [_alone(conn, group[0].work, topics)]
         else:
             outcomes = [_in_savepoint(conn, job.work, topics) for job in group]
-        conn.commit()
+        try:
+            conn.commit()
+        except DBAPIError as error:
+            raise _CommitFailed(error) from error
         # The group is on disk from here on.
         self.load.committed(len(group))
         if topics:
             self._committed(topics)
-        for job, (result, error) in zip(group, outcomes, strict=True):
-            if error is None:
+        for job, (result, refusal) in zip(group, outcomes, strict=True):
+            if refusal is None:
                 job.future.set_result(result)
             else:
-                job.future.set_exception(error)
+                job.future.set_exception(refusal)
 
 
-def _fail(jobs: Iterable[Job], error: Exception) -> None:
+def _fail(jobs: Iterable[Job], error: Exception, unsure: bool = False) -> None:
+    cause = error.cause if isinstance(error, _CommitFailed) else error
     for job in jobs:
-        job.future.set_exception(_storage_failed(error) if isinstance(error, DBAPIError) else error)
+        job.future.set_exception(_storage_failed(cause, unsure) if isinstance(cause, DBAPIError) else cause)
 
 
 def _alone(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:
@@ -275,12 +282,15 @@ class CommittingThreads:
     def _run(self, work: Work[T]) -> T:
         for attempt in range(ATTEMPTS):
             topics: Topics = set()
+            committing = False
             try:
                 with self._engine.begin() as conn:
                     result = work(conn, topics)
+                    committing = True
             except OperationalError as error:
-                if getattr(error.orig, "sqlstate", None) not in RETRIED or attempt == ATTEMPTS - 1:
-                    raise _storage_failed(error) from error
+                undone = getattr(error.orig, "sqlstate", None) in RETRIED
+                if not undone or attempt == ATTEMPTS - 1:
+                    raise _storage_failed(error, unsure=committing and not undone) from error
                 time.sleep(random.uniform(0, 0.01 * 2**attempt))  # noqa: S311 - jitter
                 continue
             self.load.committed(1)
@@ -290,6 +300,15 @@ class CommittingThreads:
         raise AssertionError("unreachable")
 
 
-def _storage_failed(error: DBAPIError) -> errors.StorageFailed:
+class _CommitFailed(Exception):
+    """A commit failed. What it was to store may be in the files nevertheless, or be committed by a lost server."""
+
+    def __init__(self, cause: DBAPIError) -> None:
+        super().__init__(str(cause))
+        self.cause = cause
+
+
+def _storage_failed(error: DBAPIError, unsure: bool) -> errors.StorageFailed:
     cause = str(error.orig).strip().partition("\n")[0]
-    return errors.StorageFailed(f"Nothing was stored ({cause}); send the same request again.", retry_after=1)
+    known = "It is not known whether this was stored" if unsure else "Nothing was stored"
+    return errors.StorageFailed(f"{known} ({cause}); send the same request again.", retry_after=1)
