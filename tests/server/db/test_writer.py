@@ -118,7 +118,7 @@ def test_nothing_is_acknowledged_if_the_commit_fails(writer: GroupCommit, engine
     futures = [writer.submit(add(str(number))) for number in range(3)]
     go.set()
     for future in futures:
-        with pytest.raises(errors.StorageFailed, match="(Nothing|It is not known whether this) was stored"):
+        with pytest.raises(errors.StorageFailed, match=r"(Nothing|It is not known whether this) was stored"):
             future.result(10)
     assert names(engine) == []
     failing[0] = False
