@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib import rc_context
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -43,9 +44,7 @@ STYLES = {
 }
 OTHER = look.Style("#E69F00", (0, (9, 2, 1, 2)), "v")
 WITHOUT_LABELS = {"random actions": (0, (1, 3)), "planner": (0, (4, 4))}
-EXPLANATION = (
-    "Lines: medians over the seeds. Bands: ranges. Success on fresh instances, measured after changes of the weights."
-)
+EXPLANATION = "Lines: medians over the seeds. Bands: ranges. Points: single runs."
 COLUMNS = (
     "told",
     "preset",
@@ -166,10 +165,9 @@ def drawn(groups: Sequence[tuple[Series, Sequence[Run]]], without: Mapping[str, 
         axes.set_title(TITLES[level])
         for series, runs in groups:
             if series.told == level:
-                look.curve(axes, [track(run) for run in runs], STYLES.get(series.label, OTHER))
+                draw(axes, runs, STYLES.get(series.label, OTHER))
         for what, percent in without.get(level, {}).items():
             axes.axhline(percent, color="black", linewidth=1.2, linestyle=WITHOUT_LABELS[what])
-        axes.set_xscale("log")
         look.count_axis(axes.xaxis, "Expert cost, units")
     look.percent_axis(panels[0], "Success on fresh instances")
     figure.legend(
@@ -184,6 +182,15 @@ def drawn(groups: Sequence[tuple[Series, Sequence[Run]]], without: Mapping[str, 
     return figure
 
 
+def draw(axes: Axes, runs: Sequence[Run], style: look.Style) -> None:
+    """Draw the runs of a series: as a curve, or as points if each was measured at one cost only."""
+    if any(run.rows[0][1] != run.rows[-1][1] for run in runs):
+        look.curve(axes, [track(run) for run in runs], style)
+        return
+    points = [(units, 100 * successes / n) for _, units, n, successes in (run.rows[-1] for run in runs)]
+    axes.plot(*zip(*points, strict=True), style.marker, color=style.color, markersize=6)
+
+
 def handles(
     groups: Sequence[tuple[Series, Sequence[Run]]], without: Mapping[str, Mapping[str, float]]
 ) -> Sequence[Line2D]:
@@ -192,7 +199,8 @@ def handles(
     lines = [
         Line2D([], [], color=one.color, linestyle=one.line, linewidth=1.8, label=label) for label, one in styles.items()
     ]
-    for what in dict.fromkeys(what for level in without.values() for what in level):
+    shown = {series.told for series, _ in groups}
+    for what in dict.fromkeys(what for level, acts in without.items() if level in shown for what in acts):
         label = f"without labels: {what}"
         lines.append(Line2D([], [], color="black", linestyle=WITHOUT_LABELS[what], linewidth=1.2, label=label))
     return lines
