@@ -79,8 +79,8 @@ def _below_first(run: str, episode: int) -> Context:
     return trace.set_span_in_context(NonRecordingSpan(first), Context())
 
 
-def install(service: str) -> bool:
-    """Send the steps of this process to a collector, if the environment names one; return whether it does.
+def install(service: str) -> None:
+    """Send the steps of this process to a collector, if the environment names one.
 
     If OpenTelemetry's SDK is not installed, a warning says so.
 
@@ -88,7 +88,7 @@ def install(service: str) -> bool:
         service: the name under which the collector shows this process, unless OTEL_SERVICE_NAME gives another.
     """
     if not any(os.environ.get(name) for name in ADDRESSES):
-        return False
+        return
     try:
         from waypost.tracing_sdk import start
     except ImportError:
@@ -97,9 +97,8 @@ def install(service: str) -> bool:
             "unset %s.",
             " and ".join(ADDRESSES),
         )
-        return False
-    start(os.environ.get("OTEL_SERVICE_NAME", service))
-    return True
+    else:
+        start(os.environ.get("OTEL_SERVICE_NAME", service))
 
 
 def flush() -> None:

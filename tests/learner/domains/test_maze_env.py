@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from tests.learner.kit import STEPS, drawn_mazes, examples, free_cells
 
 from waypost_learner.domains.maze.env import MAX_STEPS, MazeEnv
+from waypost_learner.domains.maze.lasting_lava import LastingLavaMazeEnv
 from waypost_learner.domains.maze.maze import Maze, closed_rooms, moved
 
 UP, DOWN, LEFT, RIGHT = (np.int64(action) for action in range(4))
@@ -24,8 +25,9 @@ def started(maze: Maze) -> tuple[MazeEnv, np.ndarray]:
     return env, observation
 
 
-def test_the_environment_passes_gymnasiums_checker_without_a_warning() -> None:
-    gymnasium.register("Maze-v0", MazeEnv)
+@pytest.mark.parametrize("environment", [MazeEnv, LastingLavaMazeEnv])
+def test_the_environment_passes_gymnasiums_checker_without_a_warning(environment: type[MazeEnv]) -> None:
+    gymnasium.register("Maze-v0", environment)
     try:
         check_env(gymnasium.make("Maze-v0", render_mode="ansi").unwrapped)
     finally:

@@ -3,9 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
-import gymnasium
 import numpy as np
-from gymnasium.utils.env_checker import check_env
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.learner.kit import Maze, corridor, examples, mazes, store
@@ -24,14 +22,6 @@ def started(maze: Maze) -> LastingLavaMazeEnv:
     env = domain.make_env()
     env.reset(options={"instance": maze})
     return env
-
-
-def test_the_environment_keeps_gymnasiums_contract() -> None:
-    gymnasium.register("LastingLavaMaze-v0", LastingLavaMazeEnv)
-    try:
-        check_env(gymnasium.make("LastingLavaMaze-v0", render_mode="ansi").unwrapped)
-    finally:
-        del gymnasium.registry["LastingLavaMaze-v0"]
 
 
 def test_lava_costs_a_little_and_holds_the_agent_until_it_steps_back_onto_its_trail() -> None:

@@ -233,6 +233,15 @@ def test_gradients_stay_finite_where_the_task_is_behind_walls() -> None:
     assert any(one is not None and bool(one.any()) for one in gradients)
 
 
+def test_a_network_that_cannot_learn_any_more_says_so() -> None:
+    learner = taught(briefly(1), 1)
+    assert learner.shared is not None
+    with torch.no_grad():
+        learner.shared.network.source.bias.fill_(float("nan"))
+    with pytest.raises(ValueError, match=r"no numbers.*lower train_shared\.learning_rate"):
+        learner.shared.train_idle(learner.data)
+
+
 def test_rollouts_compute_what_the_network_says_of_a_picture_once() -> None:
     learner = taught(briefly(100), 2)
     assert learner.shared is not None

@@ -186,7 +186,11 @@ class SharedPolicy:
         self._acting.finder.load_state_dict(self.network.finder.state_dict())
 
     def train(self, data: Data) -> None:
-        """Train(policy, D) for all policies together: passes over all rows, each in a new random order."""
+        """Train(policy, D) for all policies together: passes over all rows, each in a new random order.
+
+        Raises:
+            ValueError: gradients are no numbers, so nothing more can be learned.
+        """
         if not self.is_told:
             self._find_symmetries(data)
         n = sum(map(len, data.values()))
@@ -221,7 +225,11 @@ class SharedPolicy:
             loss = self._loss(self.network(to_device(batch.observations)), batch)
             self.optimizer.zero_grad()
             torch.autograd.backward(loss)
-            nn.utils.clip_grad_norm_(self._trained, _CLIP, error_if_nonfinite=True)
+            if not torch.isfinite(nn.utils.clip_grad_norm_(self._trained, _CLIP)):
+                raise ValueError(
+                    "the shared network has gradients that are no numbers, so it cannot learn any more; start a new "
+                    "run with a lower train_shared.learning_rate or fields.far"
+                )
             self.optimizer.step()
             self.average.update_parameters(self.network)
         self.network.eval()
