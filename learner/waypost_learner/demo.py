@@ -19,7 +19,7 @@ from sqlalchemy import exists, select
 from waypost import wire
 from waypost_server import serving
 from waypost_server.auth import tokens
-from waypost_server.cli.serve import login_url
+from waypost_server.cli.login import login_url
 from waypost_server.db.engine import BadDatabase, Database
 from waypost_server.db.schema import WrongSchema
 from waypost_server.db.tables import presence

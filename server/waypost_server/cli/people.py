@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from waypost import wire
 from waypost_server.auth import tokens
-from waypost_server.cli.serve import login_url
+from waypost_server.cli.login import login_url
 from waypost_server.cli.shared import DEFAULT_DATABASE, DatabaseOption, DryRunOption, JsonOption, opened, refuse
 from waypost_server.settings import Settings
 from waypost_server.users import erasure, sign_in
