@@ -93,7 +93,7 @@ def free_port() -> int:
 
 
 # A short run that asks every kind of query of Algorithm 2: what is trained so little makes all kinds of mistakes.
-LITTLE = " ".join(f"train_{level}.{rows}=640" for level in ("hi", "lo") for rows in ("least", "most", "idle"))
+LITTLE = " ".join(f"train_{level}.{rows}=192" for level in ("hi", "lo") for rows in ("least", "most", "idle"))
 VALUES = ("hg-dagger", "--domain", "maze", "--instances", "corners", "--values", LITTLE, "--seed", "0")
 LENGTH = ("--episodes", "40")
 

@@ -9,7 +9,7 @@ authors' stored mazes. As in these, the door cells are drawn again after the maz
 be a little shorter or longer than 40 steps, and a training maze gets new door cells each time it is used
 (docs/paper.md, deviation 2).
 
-About one in fifty drawn mazes is accepted, so 2,048 are drawn at once. The first axis of all arrays is the draw.
+About one in fifty drawn mazes is accepted, so 2,048 are drawn at once. The first axis of most arrays is the draw.
 """
 
 from collections.abc import Iterator
@@ -77,12 +77,13 @@ def _opened_walls(start: Cells, goal: Cells, rng: np.random.Generator) -> NDArra
     Floyd-Warshall algorithm solves.
     """
     times = rng.random((DRAWS, len(_WALL_ROOMS)), np.float32)  # the time at which each wall opens: a random order
-    connected = np.full((DRAWS, ROOMS**2, ROOMS**2), 2, np.float32)  # the time at which two rooms become connected
-    connected[:, *_WALL_ROOMS.T] = connected[:, *_WALL_ROOMS.T[::-1]] = times
+    # The time at which two rooms become connected. The draws are the last axis here, for speed.
+    connected = np.full((ROOMS**2, ROOMS**2, DRAWS), 2, np.float32)
+    connected[*_WALL_ROOMS.T] = connected[*_WALL_ROOMS.T[::-1]] = times.T
     for via in range(ROOMS**2):
-        np.minimum(connected, np.maximum(connected[:, :, via, None], connected[:, via, None, :]), out=connected)
+        np.minimum(connected, np.maximum(connected[:, via, None], connected[via]), out=connected)
     first, last = (ROOMS * rooms[:, 0] + rooms[:, 1] for rooms in (start // PITCH, goal // PITCH))
-    enough = np.where(first == last, 0, connected[np.arange(DRAWS), first, last])
+    enough = np.where(first == last, 0, connected[first, last, np.arange(DRAWS)])
     opened: NDArray[np.bool_] = times <= enough[:, None]
     return opened
 
