@@ -29,8 +29,9 @@ def hg_gated(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
         if doubts.lo[h]:
             passed[h] = yield InspectLo(segment, before=sigma[:h])
             if not passed[h]:
-                labels.append_lo(segment, (yield LabelLo(segment, before=sigma[:h])))
+                lo = yield LabelLo(segment, before=sigma[:h])
+                labels.append_lo(segment, lo, right_subgoal=h in agreed)
                 break
-            labels.append_passed(segment)
+            labels.append_passed(segment, right_subgoal=h in agreed)
     labels.judged = doubts.judged({"hi": agreed, "lo": passed})
     return labels

@@ -17,7 +17,9 @@ def naive_h_dagger(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:
     """Run one episode after the warm start."""
     labels = Labels()
     sigma = learner.roll_out(s)
-    labels.append_hi(sigma, (yield LabelHi(sigma)))
-    for h, segment in enumerate(sigma):
-        labels.append_lo(segment, (yield LabelLo(segment, before=sigma[:h])))
+    d_star = yield LabelHi(sigma)
+    labels.append_hi(sigma, d_star)
+    for h, (segment, g_star) in enumerate(zip(sigma, d_star, strict=True)):
+        lo = yield LabelLo(segment, before=sigma[:h])
+        labels.append_lo(segment, lo, right_subgoal=segment.subgoal == g_star)
     return labels

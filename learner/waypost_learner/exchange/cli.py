@@ -90,7 +90,7 @@ def import_run(
 def clone(
     labels: Annotated[str, typer.Argument(help="The id of a run, or an export as jsonl or parquet.")],
     algorithm: Annotated[str, typer.Option(help="h-bc, or flat-bc for flat labels.")] = "h-bc",
-    preset: Annotated[str, typer.Option(help="The preset: lean or paper.")] = "lean",
+    preset: Annotated[str, typer.Option(help="The preset: lean, general or paper.")] = "lean",
     values: Annotated[str | None, typer.Option(help='Values to replace in the preset: "relabeling=false".')] = None,
     seed: Annotated[int, typer.Option(min=0, help="The seed of every random choice.")] = 0,
     episodes: Annotated[int | None, typer.Option(min=1, help="How many episodes to use. Default: all.")] = None,

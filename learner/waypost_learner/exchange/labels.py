@@ -4,6 +4,7 @@ from collections.abc import Iterable
 
 from waypost import wire
 from waypost.domains import Domain
+from waypost.trajectory import Subgoal
 from waypost_learner.exchange.replay import Asked, Replay
 from waypost_learner.policies.labels import Labels, LoLabels
 from waypost_learner.remote.translation import Translator
@@ -14,12 +15,14 @@ def labels_of(domain: Domain, replays: Iterable[Replay]) -> Labels:
     labels = Labels()
     for replay in replays:
         translator = Translator(domain, replay.instance)
+        good = dict[int, Subgoal]()
         for asked in replay.asked:
-            _append(labels, replay, asked, translator)
+            _append(labels, replay, asked, translator, good)
     return labels
 
 
-def _append(labels: Labels, replay: Replay, asked: Asked, translator: Translator) -> None:
+def _append(labels: Labels, replay: Replay, asked: Asked, translator: Translator, good: dict[int, Subgoal]) -> None:
+    """Append the labels of one answer. `good` collects the right subgoals, by the number of the segment."""
     held = asked.record.answered
     if held is None or held.answer is None:
         return
@@ -30,11 +33,13 @@ def _append(labels: Labels, replay: Replay, asked: Asked, translator: Translator
         case wire.HierDemoAnswer():
             labels.append_demonstration(path)
         case wire.LabelHiAnswer():
-            labels.append_hi(path, [translator.domain.subgoals.index(name) for name in content.subgoals])
+            subgoals = [translator.domain.subgoals.index(name) for name in content.subgoals]
+            good.update(enumerate(subgoals, asked.first))
+            labels.append_hi(path, subgoals)
         case wire.LabelLoAnswer():
             lo = translator.answer(content)
             assert isinstance(lo, LoLabels)
-            labels.append_lo(path[0], lo)
+            labels.append_lo(path[0], lo, right_subgoal=good.get(asked.first) == path[0].subgoal)
         case wire.LabelFullAnswer():
             labels.append_flat(path, [translator.domain.actions.index(name) for name in content.actions])
         case wire.InspectAnswer():

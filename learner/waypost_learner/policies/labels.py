@@ -5,7 +5,7 @@ An algorithm appends to `Labels` in the order of the paper's lines. `rows_of` tu
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -32,20 +32,24 @@ class Labels:
     """The results of one episode: the expert's labels and demonstrations, and the learner's own experience."""
 
     hi: list[tuple[Trajectory, tuple[Subgoal, ...]]] = field(default_factory=list)
-    lo: list[tuple[Segment, LoLabels]] = field(default_factory=list)
+    lo: list[tuple[Segment, LoLabels, bool]] = field(default_factory=list)  # whether the subgoal was right
     demonstrations: list[Trajectory] = field(default_factory=list)  # their labels are in `hi` and `lo` too
     flat: list[tuple[Trajectory, tuple[Action, ...]]] = field(default_factory=list)
     experience: list[tuple[PolicyKey, Trajectory]] = field(default_factory=list)
-    passed: list[Segment] = field(default_factory=list)  # of rollouts: the learner's own, which the expert passed
+    # Of rollouts: the learner's own segments that the expert passed, and whether their subgoals were right.
+    passed: list[tuple[Segment, bool]] = field(default_factory=list)
     judged: dict[Literal["hi", "lo"], list[Row]] = field(default_factory=dict)  # what a gate learns from a rollout
 
     def append_hi(self, trajectory: Trajectory, good_subgoals: Sequence[Subgoal]) -> None:
         """D_HI <- D_HI + {(s_h, g*_h)}."""
         self.hi.append((trajectory, tuple(good_subgoals)))
 
-    def append_lo(self, segment: Segment, labels: LoLabels) -> None:
-        """D_g <- D_g + {(s, a*, omega*)}, up to the state where the segment should have ended."""
-        self.lo.append((segment, labels))
+    def append_lo(self, segment: Segment, labels: LoLabels, right_subgoal: bool = True) -> None:
+        """D_g <- D_g + {(s, a*, omega*)}, up to the state where the segment should have ended.
+
+        Algorithm 2 asks only where the expert found the subgoal right. Other algorithms must say whether it was.
+        """
+        self.lo.append((segment, labels, right_subgoal))
 
     def append_demonstration(self, demonstration: Trajectory) -> None:
         """Lines 5-7 of Algorithm 1: the expert's own subgoals, actions and terminations are the labels."""
@@ -58,12 +62,13 @@ class Labels:
         """D <- D + {(s, a*)} over the full trajectory."""
         self.flat.append((trajectory, tuple(good_actions)))
 
-    def append_passed(self, *segments: Segment) -> None:
+    def append_passed(self, *segments: Segment, right_subgoal: bool = True) -> None:
         """Note that the expert passed segments of a rollout: what the learner did in them was right.
 
         A subgoal's segment that the horizon cut off is left out: nobody said whether it should have ended there.
         """
-        self.passed.extend(one for one in segments if one.subgoal is None or one.terminated or one.final)
+        finished = [one for one in segments if one.subgoal is None or one.terminated or one.final]
+        self.passed.extend((one, right_subgoal) for one in finished)
 
     def append_experience(self, key: PolicyKey, trajectory: Trajectory) -> None:
         """D_g <- D_g + tau_h (Algorithm 3, lines 20 and 22), or the same for another Q-function."""
@@ -76,7 +81,7 @@ Derives = Relabeling | Retracing | FlatRelabeling
 
 def ends_of(labels: Labels) -> Iterator[Row]:
     """Yield the observations where a subgoal was chosen and where it ended, as labels say, and the subgoal."""
-    for segment, lo in labels.lo:
+    for segment, lo, _ in labels.lo:
         if segment.subgoal is not None and True in lo.terminations:
             ended = segment.states[lo.terminations.index(True)]
             yield Row(np.stack([segment.start.observation, ended.observation]), segment.subgoal)
@@ -95,15 +100,15 @@ def rows_of(labels: Labels, relabeling: Derives | None = None, from_passed: bool
         rows.setdefault(META, []).extend(
             Row(segment.start.observation, g) for segment, g in zip(sigma, good, strict=True)
         )
-    for segment, lo in labels.lo:
-        _extend(rows, segment, lo)
+    for segment, lo, right in labels.lo:
+        _extend(rows, segment, lo, right)
     for tau, actions in labels.flat:
         rows.setdefault(FLAT, []).extend(_flat_rows(tau, actions))
-    for segment in labels.passed if from_passed else ():
+    for segment, right in labels.passed if from_passed else ():
         if segment.subgoal is None:
             rows.setdefault(FLAT, []).extend(_flat_rows((segment,), segment.actions))
         else:
-            _extend(rows, segment, _demonstrated(segment))
+            _extend(rows, segment, _demonstrated(segment), right)
     if isinstance(relabeling, Relabeling):
         for sigma, good in labels.hi:
             rows[META] += [Row(observation, g) for observation, g in relabeling.relabeled(sigma, good)]
@@ -122,7 +127,7 @@ def transformed_rows(rows: Mapping[PolicyKey, Sequence[Row]], symmetry: Symmetry
 
     def transformed(key: PolicyKey, row: Row) -> Row:
         choice = UNLABELED if row.choice == UNLABELED else _choices(symmetry, key)[row.choice]
-        return Row(symmetry.observe(row.observation), choice, row.termination)
+        return replace(row, observation=symmetry.observe(row.observation), choice=choice)
 
     return {_key(symmetry, key): [transformed(key, row) for row in found] for key, found in rows.items()}
 
@@ -132,7 +137,7 @@ def transformed_experience(key: PolicyKey, experience: Experience, symmetry: Sym
     return _key(symmetry, key), experience.observed(symmetry.observe).chosen(_choices(symmetry, key))
 
 
-def _extend(rows: Rows, segment: Segment, labels: LoLabels) -> None:
+def _extend(rows: Rows, segment: Segment, labels: LoLabels, right: bool = True) -> None:
     """Add the rows of one labeled segment to the rows of its subgoal's policy."""
     assert segment.subgoal is not None
     into = rows.setdefault(pi(segment.subgoal), [])
@@ -141,7 +146,7 @@ def _extend(rows: Rows, segment: Segment, labels: LoLabels) -> None:
         choice = UNLABELED if ends or action is None else action
         termination = UNLABELED if step == 0 else int(ends)
         if choice != UNLABELED or termination != UNLABELED:
-            into.append(Row(state.observation, choice, termination))
+            into.append(Row(state.observation, choice, termination, right))
         if ends:
             break
 

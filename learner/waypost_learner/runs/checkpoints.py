@@ -95,7 +95,7 @@ def load(path: Path, learner: Learner) -> None:
         tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118 (no mapping)
     try:
         _restore(tensors, learner)
-    except (LookupError, RuntimeError) as error:
+    except (LookupError, RuntimeError, ValueError) as error:
         raise ValueError(
             f"{path} does not fit this version of Waypost; continue with the version that wrote it, or start a new run"
         ) from error

@@ -251,8 +251,17 @@ def test_gated_only_what_is_doubted_is_asked_about_each_level_by_itself() -> Non
         LabelLo(sigma[2], before=sigma[:2]),
     ]
     assert [row.choice for row in rows_of(labels)[META]] == [1]
-    assert rows_of(labels, from_passed=True).keys() == {META, pi(0), pi(2)}
+    rows = rows_of(labels, from_passed=True)
+    assert rows.keys() == {META, pi(0), pi(2)}
+    assert not any(row.for_right_subgoal for key in (pi(0), pi(2)) for row in rows[key])  # nobody said so
     assert answers(labels) == {"hi": [-1, 0, -1], "lo": [0, -1, 1]}
+
+
+def test_gated_what_was_labeled_for_a_subgoal_that_the_expert_agreed_to_is_for_a_right_one() -> None:
+    _, _, labels = gated_episode([True] * 3, [True] * 3, [0, 1, 2], [True, False, False])
+    rows = rows_of(labels, from_passed=True)
+    assert rows.keys() == {META, pi(0), pi(1)}
+    assert all(row.for_right_subgoal for key in (pi(0), pi(1)) for row in rows[key])
 
 
 def test_gated_nothing_is_asked_after_the_first_thing_that_is_wrong() -> None:
@@ -381,7 +390,12 @@ def test_naive_hierarchical_dagger_labels_everything_and_inspects_nothing(
     labels = carried_out(naive_h_dagger(S, ScriptedLearner(sigma)), expert)  # type: ignore[arg-type]
     assert expert.asked == [LabelHi(sigma), *(LabelLo(one, before=sigma[:h]) for h, one in enumerate(sigma))]
     assert [row.choice for row in rows_of(labels)[META]] == expert.good_subgoals
-    assert rows_of(labels).keys() == {META, *(pi(one.subgoal) for one in sigma if one.subgoal is not None)}
+    rows = rows_of(labels)
+    assert rows.keys() == {META, *(pi(one.subgoal) for one in sigma if one.subgoal is not None)}
+    wrong = Counter(chosen for chosen, good in chosen_and_good if chosen != good)
+    for key in rows.keys() - {META}:  # the same number of rows for each segment
+        each = len(rows[key]) // sum(chosen == key.subgoal for chosen, _ in chosen_and_good)
+        assert sum(not row.for_right_subgoal for row in rows[key]) == each * wrong[key.subgoal or 0]
 
 
 def learned_from(labels: Labels) -> Counter[PolicyKey]:

@@ -39,6 +39,15 @@ def test_labels_of_an_interactive_run_give_its_weights_too(tmp_path: Path) -> No
     assert json.loads(found)["weights"] == run["weights"]
 
 
+def test_labels_toward_wrong_subgoals_are_told_apart_as_in_the_run(tmp_path: Path) -> None:
+    """`general` learns which subgoals are right from labels of actions, too: from those toward right ones."""
+    values = " ".join(f"train_shared.{rows}=128" for rows in ("least", "most", "idle"))
+    chosen = ("--preset", "general", "--values", values, "--seed", "1", "--threads", "1", "--json")
+    store = ("--store", tmp_path / "waypost.db")
+    run = json.loads(done("train", "naive-h-dagger", "--warm-start", "1", "--episodes", "3", *chosen, *store))
+    assert json.loads(done("clone", run["run"], *chosen, *store))["weights"] == run["weights"]
+
+
 def test_another_seed_and_fewer_episodes_learn_something_else_from_the_same_labels(tmp_path: Path) -> None:
     run = trained(tmp_path, algorithm="h-bc", episodes=4)
     store = ("--store", tmp_path / "waypost.db", "--preset", "tiny", "--threads", "1", "--json")

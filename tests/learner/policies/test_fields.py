@@ -18,6 +18,7 @@ from waypost_learner.policies.fields import agent_finder
 from waypost_learner.policies.fields.agent_finder import AgentFinder
 from waypost_learner.policies.fields.field_net import FieldNet, FieldSpec
 from waypost_learner.policies.fields.spreading import spread
+from waypost_learner.policies.labels import Labels, LoLabels
 from waypost_learner.policies.levels import Levels
 from waypost_learner.rollout.policy_keys import FLAT, META, pi
 from waypost_learner.runs import checkpoints
@@ -73,6 +74,30 @@ def test_it_learns_every_policy_from_four_demonstrations() -> None:
     assert right["hi"] / segments > 0.8  # one of five
     assert right["lo"] / steps > 0.95  # one of four
     assert right["ends"] / segments > 0.8
+
+
+@pytest.mark.parametrize("right", [False, True])
+def test_labels_toward_wrong_subgoals_do_not_teach_that_these_are_right(right: bool) -> None:
+    """The control says of the same labels that their subgoals are right."""
+    learner, oracle, labels = Learner(maze, briefly(100), 0, threads=1), maze.oracle, Labels()
+    for instance in TRAIN[:4]:
+        view = instance.to_json()
+        labels.append_demonstration(demonstrated(instance))
+        for one in demonstrated(instance):
+            at = one.start.view
+            for wrong in set(range(len(maze.subgoals))) - set(oracle.good_subgoals(view, at)):
+                if good := oracle.good_actions(view, at, at, wrong):
+                    toward = Segment(wrong, one.states[:2], one.actions[:1], terminated=False)
+                    labels.lo += 8 * [(toward, LoLabels((good[0],), (False, False)), right)]
+    learner.learn(labels)
+    learner.train_idle()
+    agrees = [
+        learner.policies[META](one.start.observation[None]).logits.argmax()
+        in oracle.good_subgoals(instance.to_json(), one.start.view)
+        for instance in TRAIN[:4]
+        for one in demonstrated(instance)
+    ]
+    assert (sum(agrees) / len(agrees) > 0.8) is not right
 
 
 def test_a_flat_policy_learns_with_the_same_network() -> None:

@@ -169,6 +169,15 @@ def test_a_run_that_another_version_began_is_refused_with_a_sentence(path: Path)
         checkpoints.load(path, learner())
 
 
+def test_a_run_whose_rows_say_less_is_refused_with_a_sentence(path: Path) -> None:
+    checkpoints.write(path, trained(2), HEADER, weights_only=False)
+    rows = {name: tensor for name, tensor in load_file(path).items() if name.endswith(".labels")}
+    fewer = {name: tensor[:, :2].contiguous() for name, tensor in rows.items()}
+    save_file(load_file(path) | fewer, path, {"waypost": "{}"})
+    with pytest.raises(ValueError, match="does not fit this version of Waypost"):
+        checkpoints.load(path, learner())
+
+
 def test_the_hash_changes_with_any_single_weight() -> None:
     one = learner()
     seen = {weights_hash(one)}

@@ -48,8 +48,9 @@ class _Batch:
 class SharedPolicy:
     """mu and every pi_g with beta_g, or a flat policy, as one network.
 
-    Where the expert said how to act toward a subgoal, that subgoal and that action were right. So these labels also
-    train mu, and the task's field by a flat policy's loss. No label is needed for that.
+    Where the expert said how to act toward a right subgoal, that action was right for the task. So these labels also
+    train mu, and the task's field by a flat policy's loss. No label is needed for that. Labels toward a subgoal that
+    nobody found right train its pi_g and beta_g alone.
 
     Args:
         observation_shape: (channels, rows, columns) of the observations, which are pictures.
@@ -316,24 +317,24 @@ def _batch(data: Data, rows: Sequence[tuple[PolicyKey, int, Symmetry | None]]) -
         if not chosen:
             continue
         observations, found = data[key][[row for row, _ in chosen]]
-        for observation, label, (_, symmetry) in zip(observations, found.tolist(), chosen, strict=True):
-            changed = {key: [Row(observation.numpy(), *label)]}
+        for observation, (choice, ends, right), (_, symmetry) in zip(observations, found.tolist(), chosen, strict=True):
+            changed = {key: [Row(observation.numpy(), choice, ends, bool(right))]}
             if symmetry is not None:
                 changed = transformed_rows(changed, symmetry)
             for key_after, (row,) in changed.items():
                 seen.append(torch.from_numpy(row.observation))
-                labels.append((row.choice, row.termination))
+                labels.append((row.choice, row.termination, row.for_right_subgoal))
                 keys.append(key_after)
-    choice, termination = torch.tensor(labels).to(DEVICE).unbind(1)
+    choices, terminations, right = torch.tensor(labels).to(DEVICE).unbind(1)
     subgoal = torch.tensor([UNLABELED if key.subgoal is None else key.subgoal for key in keys]).to(DEVICE)
-    unlabeled = torch.full_like(choice, UNLABELED)
+    unlabeled = torch.full_like(choices, UNLABELED)
     of_pi, of_mu = subgoal != UNLABELED, torch.tensor([key == META for key in keys]).to(DEVICE)
-    acted = choice != UNLABELED
+    for_task = (choices != UNLABELED) & (right != 0)
     return _Batch(
         torch.stack(seen),
-        hi=torch.where(of_mu, choice, torch.where(of_pi & acted, subgoal, unlabeled)),
+        hi=torch.where(of_mu, choices, torch.where(of_pi & for_task, subgoal, unlabeled)),
         subgoal=subgoal.clamp(min=0),
-        action=torch.where(of_pi, choice, unlabeled),
-        termination=termination,
-        flat=torch.where(of_mu, unlabeled, choice),
+        action=torch.where(of_pi, choices, unlabeled),
+        termination=terminations,
+        flat=torch.where(of_mu | ~for_task, unlabeled, choices),
     )
