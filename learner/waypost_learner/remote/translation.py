@@ -149,7 +149,10 @@ class Translator:
         return boxes[:1] if all(one == boxes[0] for one in boxes) else boxes
 
     def _replay(self, segments: Sequence[wire.DemoSegment]) -> Trajectory:
-        """Return the demonstration that was asked for last, with the observations along it. Actions after the end of the episode are ignored."""
+        """Return a demonstration with the observations along it, from the start that was asked for last.
+
+        Actions after the end of the episode are ignored.
+        """
         states = self._states([self.domain.actions.index(action) for one in segments for action in one.actions])
         sigma, first = list[Segment](), 0
         for segment in segments:

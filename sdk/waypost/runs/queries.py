@@ -135,7 +135,7 @@ class Query(ABC, Generic[A]):
 class HierDemo(Query[tuple[wire.DemoSegment, ...]]):
     """Carry out the task from a state. The answer is a tuple of segments, each with its `subgoal` and `actions`.
 
-    With a `context`, the expert plays on from where an episode has come, and sees what was done before.
+    With a `context`, the expert takes over: its last segment failed, and the expert plays on from there.
 
     Args:
         state: the first state of the demonstration, as a JSON value. It is the last state of the context, if any.
