@@ -276,6 +276,7 @@ export function nextStep(play: Play): string {
       ? t('Carry out the task, step by step.')
       : t('Continue until the task is accomplished.');
   if (play.complete) return t('Send the demonstration, or undo a move.');
+  if (current === null && steps === 0 && play.playsOn) return t('Choose the subgoal to play on to.');
   if (current === null) return steps === 0 ? t('Choose the first subgoal.') : t('Choose the next subgoal.');
   const subgoal = readable(current.subgoal ?? '');
   return current.actions.length === 0
