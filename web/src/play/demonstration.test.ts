@@ -10,7 +10,7 @@ const ask = {
   flat: false,
   max_segments: 2,
   max_actions: 4,
-} as AskOf<'hier_demo'>;
+} as unknown as AskOf<'hier_demo'>;
 const flat = { ...ask, flat: true };
 const price: Price = { fixed: 0, per_action: 1, per_segment: 110 };
 

@@ -11,7 +11,7 @@ const ask = {
   flat: false,
   max_segments: 3,
   max_actions: 20,
-} as AskOf<'hier_demo'>;
+} as unknown as AskOf<'hier_demo'>;
 const vocabulary: Vocabulary = {
   domain: 'corridor',
   renderer: 'corridor',
