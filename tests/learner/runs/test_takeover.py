@@ -13,7 +13,7 @@ from tests.learner.kit import TINY, corridor, drawn_mazes, examples, outcome, st
 from waypost import prices as pricing
 from waypost import wire
 from waypost.domains import DomainFailed, find_domain
-from waypost.trajectory import Segment, Trajectory
+from waypost.trajectory import Segment, Trajectory, n_steps
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.queries import HierDemo
 from waypost_learner.domains.corridor import Corridor, CorridorDomain
@@ -135,6 +135,15 @@ def test_an_oracle_that_cannot_predict_plays_on_after_the_actions_so_far() -> No
     assert OracleExpert(domain)(elsewhere) != answer
 
 
+def test_an_oracle_stops_where_the_query_allows_no_more() -> None:
+    domain = CorridorDomain()
+    ask: Any = Translator(domain, Corridor(0, 6)).ask(takeover(walked(domain, Corridor(0, 6), [1, 0])), 0, 0)
+    shorter: Any = OracleExpert(domain)(ask.model_copy(update={"max_actions": 2}))
+    assert [segment.actions for segment in shorter.segments] == [["east", "east"]]
+    longer: Any = OracleExpert(domain)(ask.model_copy(update={"max_actions": 20, "max_segments": 2}))
+    assert [segment.subgoal for segment in longer.segments] == ["east", "target"]
+
+
 def test_a_takeover_in_snapshots_goes_on_from_the_state_itself() -> None:
     domain = find_domain(f"{HERE}:restorable")
     sigma = walked(domain, 3, [1, 0, 0])
@@ -191,3 +200,25 @@ def test_an_episode_goes_on_after_a_segment_unless_it_ended_there(domain: Any) -
             assert learner.goes_on(s, sigma[: h + 1]) == (not simulator.ended)
             found.add(simulator.ended)
     assert found == {True, False}
+
+
+class Tired(domains_kit.Walk):
+    """A walk whose episodes end after three steps, long before H_FULL."""
+
+    def reset(self, **given: Any) -> Any:
+        self.steps = 0
+        return super().reset(**given)
+
+    def step(self, action: Any) -> Any:
+        self.steps += 1
+        observation, reward, terminated, _, info = super().step(action)
+        return observation, reward, terminated, self.steps == 3, info
+
+
+def test_an_episode_that_its_environment_cut_off_does_not_go_on() -> None:
+    learner = Learner(domains_kit.walk(environment=Tired), TINY, seed=0, threads=1)
+    s = learner.start(3, 0)
+    sigma = learner.roll_out(s)
+    assert not sigma[-1].final
+    assert n_steps(sigma) == 3
+    assert not learner.goes_on(s, sigma)
