@@ -226,6 +226,12 @@ describe('playing on from where the learner failed', () => {
     expect([scenario.play.tape.frames, scenario.play.scene.at]).toEqual([[2, 1, 0, 1, 0], 4]);
   });
 
+  it('goes back to the failed state where steps alone are played and taken back', () => {
+    const scenario = new Scenario({ ...on, flat: true }).here();
+    scenario.walk('act:1', 'clear');
+    expect([scenario.play.scene.at, scenario.play.looksBack]).toEqual([4, false]);
+  });
+
   it('sends one segment without a question, although the task is not accomplished', () => {
     const scenario = new Scenario(on).here();
     scenario.walk('choose:0', 'act:1', 'reached');
