@@ -131,6 +131,16 @@ def test_annotators_see_the_instance_the_context_and_the_learners_own_choices(se
     assert ask.question == "It tried “key”. What should it have done at each step?"
 
 
+def test_a_script_lets_somebody_play_on_from_where_its_policy_failed(service):
+    run = service.start()
+    run.ask(waypost.HierDemo(WALK.states[-1], max_segments=1, max_actions=4, context=[WALK], episode=3))
+    ask = service.lease().query.ask
+    assert (ask.state, ask.max_segments, len(ask.context)) == (WALK.states[-1], 1, 1)
+    assert ask.question == "Play on until a subgoal is reached."
+    with pytest.raises(ValueError, match="begins in another state"):
+        run.ask(waypost.HierDemo(99, max_segments=1, max_actions=4, context=[WALK], episode=4))
+
+
 def test_arrays_become_lists(service):
     run = service.start()
     states = np.array([[0.5, 1], [2, 3]], np.float32)

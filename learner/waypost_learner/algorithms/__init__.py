@@ -14,6 +14,7 @@ from waypost_learner.algorithms.hg_dagger_by_place import hg_dagger_by_place
 from waypost_learner.algorithms.hg_dagger_q import hg_dagger_q
 from waypost_learner.algorithms.hg_gated import hg_gated
 from waypost_learner.algorithms.hg_stagger import hg_stagger
+from waypost_learner.algorithms.hg_takeover import hg_takeover
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.algorithms.naive_h_dagger import naive_h_dagger
 from waypost_learner.algorithms.plain_dagger import plain_dagger
@@ -37,6 +38,7 @@ class Algorithm:
     monitored: bool = False  # whether episodes begin with Inspect_FULL, so that monitoring may skip them
     by_place: bool = False  # whether what is asked depends on the places that the domain declares
     gated: bool = False  # whether a gate decides what is asked
+    takes_over: bool = False  # whether the expert plays on from states of the learner
 
     @property
     def interactive(self) -> bool:
@@ -58,6 +60,7 @@ ALGORITHMS = {
     "hg-dagger-by-place": Algorithm(hg_dagger_by_place, warm_start=h_bc, monitored=True, by_place=True),
     "hg-gated": Algorithm(hg_gated, warm_start=h_bc, gated=True),
     "hg-stagger": Algorithm(hg_stagger, warm_start=h_bc, monitored=True),
+    "hg-takeover": Algorithm(hg_takeover, warm_start=h_bc, monitored=True, takes_over=True),
     "naive-h-dagger": Algorithm(naive_h_dagger, warm_start=h_bc),
     "flat-bc": Algorithm(flat_bc, levels=_FLAT),
     "flat-dagger": Algorithm(flat_dagger, warm_start=flat_bc, levels=_FLAT, monitored=True),

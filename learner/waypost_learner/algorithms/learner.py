@@ -13,7 +13,7 @@ import torch
 from numpy.typing import NDArray
 
 from waypost.domains import Domain, Placed, Symmetric, Symmetry, symmetries_of
-from waypost.trajectory import Observation, Segment, State, Trajectory
+from waypost.trajectory import Observation, Segment, State, Trajectory, n_steps
 from waypost_learner.gates import make_gate
 from waypost_learner.gates.gate import Doubts
 from waypost_learner.gates.views import seen_in
@@ -197,6 +197,11 @@ class Learner:
     def draw_one(self, s: Start, sigma: Trajectory) -> int:
         """Return the position of a random segment of sigma, a rollout from s. All segments are equally likely."""
         return int(np.random.default_rng([self.seed, streams.SEGMENT, s.draw]).integers(len(sigma)))
+
+    def goes_on(self, s: Start, sigma: Trajectory) -> bool:
+        """Return whether an action can follow on sigma, a rollout from s or the first segments of it."""
+        is_all = n_steps(sigma) == s.simulator.steps
+        return not (sigma[-1].final or (is_all and s.simulator.ended) or n_steps(sigma) >= self.domain.horizons.full)
 
     def doubts(self, sigma: Trajectory) -> Doubts:
         """Return what the gate doubts in sigma, a rollout of the current policies."""

@@ -14,11 +14,14 @@ from waypost_learner.policies.labels import LoLabels
 class HierDemo:
     """HierDemo(s): the expert's own hierarchical trajectory from s. Answer: `Trajectory`.
 
-    If `flat`, it is one segment without a subgoal.
+    If `flat`, it is one segment without a subgoal. If s is not the start of the episode, it comes after the segments
+    `before`. There are at most `max_segments`, each of at most H_LO actions; H_HI, of any length, if None.
     """
 
     state: State
     flat: bool = False
+    before: Trajectory = ()
+    max_segments: int | None = None
 
 
 @dataclass(frozen=True)

@@ -110,8 +110,12 @@ class Replayer:
         assert record.answered.answer is not None
         given = record.answered.answer.content
         assert isinstance(given, wire.HierDemoAnswer)
-        path = self._carried_out(instance, [(segment.subgoal, segment.actions) for segment in given.segments])
-        path = judged(self.domain, instance, path)
+        earlier = record.ask.context  # of the learner: the demonstration goes on from there
+        segments = [(segment.subgoal, segment.actions) for segment in earlier]
+        segments += [(segment.subgoal, segment.actions) for segment in given.segments]
+        path = self._carried_out(instance, segments)
+        self._check(record.ask.episode, path, earlier)
+        path = judged(self.domain, instance, path[len(earlier) :])
         return Replay(record.ask.episode, instance, True, path, (Asked(record, 0, len(path)),))
 
     def _rollout(self, instance: Any, records: Sequence[wire.QueryRecord]) -> Replay:

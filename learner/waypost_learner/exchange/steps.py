@@ -110,7 +110,8 @@ def _say(
                 if segment.subgoal is not None:
                     _label_hi(infos, start, segment.subgoal, by)
                     infos["expert_termination"][start + 1 : start + len(segment.actions)] = 0
-                    infos["expert_termination"][start + len(segment.actions)] = 1
+                    ended = segment.terminated or segment.final
+                    infos["expert_termination"][start + len(segment.actions)] = ended
                 _label_lo(infos, start, segment.actions, by)
         case wire.InspectAnswer():
             infos[content.kind][end] = int(content.verdict == "pass")

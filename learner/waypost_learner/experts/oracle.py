@@ -4,7 +4,9 @@ It needs only the content of a wire query, so the in-process expert and the orac
 learner's own choice is right, this choice becomes the label: a tie counts as agreement.
 """
 
+import json
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from waypost import wire
@@ -12,6 +14,14 @@ from waypost.domains import Domain, Predicting, Reopened, oracle_of
 from waypost.trajectory import Action
 from waypost_learner.experts.solutions import solve
 from waypost_learner.rollout.simulator import Simulator
+
+
+@dataclass(frozen=True)
+class Most:
+    """Where a demonstration ends at the latest."""
+
+    segments: int | None  # None if there is no limit
+    actions: int
 
 
 class OracleExpert:
@@ -33,22 +43,34 @@ class OracleExpert:
     def __call__(self, ask: wire.Ask) -> wire.Answer:
         """Answer one query."""
         if isinstance(ask, wire.AskHierDemo):
-            demonstration = self.demonstrate(ask.instance, ask.state)
+            most = Most(None if ask.flat else ask.max_segments, ask.max_actions)
+            demonstration = self.demonstrate(ask.instance, ask.state, ask.context, most)
             return _flattened(demonstration) if ask.flat else demonstration
         return _preferred(ask, solve(self._domain, ask).known)
 
-    def demonstrate(self, instance: Any, state: Any) -> wire.HierDemoAnswer:
+    def demonstrate(
+        self, instance: Any, state: Any, context: Sequence[wire.Segment] = (), most: Most | None = None
+    ) -> wire.HierDemoAnswer:
         """Return the oracle's demonstration from a state, given by its JSON view, until the task is accomplished.
 
-        An oracle that does not predict the next state acts in the domain's environment, from the start of the instance;
+        An oracle that does not predict the next state acts in the domain's environment, after the actions of `context`;
         then a demonstration may also end with the episode. It ends too where no action is good anymore.
+
+        Args:
+            instance: the instance, as a JSON view.
+            state: the first state.
+            context: the segments from the start of the instance to `state`.
+            most: where the demonstration ends at the latest; after H_FULL actions if None.
 
         Raises:
             ValueError: the oracle cannot demonstrate; the message says what is missing.
         """
-        follow, segments = self._follow(instance), list[wire.DemoSegment]()
-        ended, steps = self._oracle.succeeded(instance, state), 0
-        while not ended:
+        most = most or Most(None, self._domain.horizons.full)
+        follow, segments = self._follow(instance, state, context), list[wire.DemoSegment]()
+        if self._oracle.succeeded(instance, state):
+            raise ValueError(f"the task is accomplished in the state {state}, so there is nothing to demonstrate")
+        ended, steps = False, 0
+        while not ended and len(segments) != most.segments:
             subgoal = self._first(self._oracle.good_subgoals(instance, state), "good_subgoals", state)
             origin, actions = state, list[Action]()
             while not ended and (not actions or not self._oracle.reached(instance, origin, state, subgoal)):
@@ -59,7 +81,7 @@ class OracleExpert:
                 actions.append(self._first(good, "good_actions", state))
                 state, over = follow(state, actions[-1])
                 steps += 1
-                ended = over or steps == self._domain.horizons.full or self._oracle.succeeded(instance, state)
+                ended = over or steps == most.actions or self._oracle.succeeded(instance, state)
             names = [self._domain.actions[action] for action in actions]
             if names:
                 segments.append(wire.DemoSegment(subgoal=self._domain.subgoals[subgoal], actions=names))
@@ -70,7 +92,9 @@ class OracleExpert:
             raise ValueError(f"the oracle of {self._domain.name!r} is stuck: {function} is empty in the state {state}")
         return good[0]
 
-    def _follow(self, instance: Any) -> Callable[[Any, Action], tuple[Any, bool]]:
+    def _follow(
+        self, instance: Any, state: Any, context: Sequence[wire.Segment]
+    ) -> Callable[[Any, Action], tuple[Any, bool]]:
         """Return a function that carries out an action in a state: the next state, and whether the episode is over."""
         if isinstance(self._oracle, Predicting):
             successor = self._oracle.successor
@@ -81,7 +105,16 @@ class OracleExpert:
                 "or the domain needs instance_from(view)"
             )
         simulator = Simulator(self._domain)
-        simulator.reset(self._domain.instance_from(instance))
+        view = simulator.reset(self._domain.instance_from(instance)).view
+        for action in (action for segment in context for action in segment.actions):
+            if simulator.ended:
+                break
+            view = simulator.step(self._domain.actions.index(action)).view
+        if context and (simulator.ended or _plain(view) != _plain(state)):
+            raise ValueError(
+                f"the oracle of {self._domain.name!r} cannot play on: the actions so far do not lead to the state "
+                f"{state} again; give it successor(instance, state, action)"
+            )
         return lambda _, action: (simulator.step(action).view, simulator.ended)
 
 
@@ -115,6 +148,11 @@ def _preferred(ask: Any, known: wire.Known) -> wire.Answer:
 def _choices(own: Sequence[str | None], right: Sequence[Sequence[str]]) -> list[str]:
     """Return the learner's own choice of each label if it is right, else the first right one."""
     return [mine if mine is not None and mine in good else good[0] for mine, good in zip(own, right, strict=False)]
+
+
+def _plain(view: Any) -> Any:
+    """Return a JSON view as it comes in a message: with lists for tuples."""
+    return json.loads(json.dumps(view))
 
 
 def _flattened(demonstration: wire.HierDemoAnswer) -> wire.HierDemoAnswer:

@@ -39,6 +39,7 @@ class Stage:
 
     def __init__(self, translator: Translator, upload: Upload) -> None:
         self._translator, self._upload = translator, upload
+        self._before = translator.before
         self._simulator = Simulator(translator.domain, pictures=True)
         self._replay = replay_of(translator.domain)
         self._camera = Camera(translator.domain, translator.instance)  # not the translator's, which another thread uses
@@ -55,7 +56,7 @@ class Stage:
         self._translator.played = (tuple(self._actions), tuple(self._states))
         # An environment that cannot return to a state does not repeat the states that the web app has.
         known = 0 if again and self._replay == "recorded" else min(moves.known, len(self._states))
-        frames = self._camera.along(self._actions, self._states)[known:]
+        frames = self._frames()[known:]
         self._upload(self._camera.developed())
         return wire.PlayStates(
             type="states",
@@ -68,8 +69,15 @@ class Stage:
             succeeded=self._simulator.succeeded,
         )
 
+    def _frames(self) -> list[str]:
+        """Return the hashes of the frames of the states so far. A camera wants all actions since the episode began."""
+        actions = [action for segment in self._before for action in segment.actions]
+        states = [state for segment in self._before for state in segment.states[:-1]]
+        frames = self._camera.along([*actions, *self._actions], [*states, *self._states])
+        return frames[len(actions) :]
+
     def _begin(self) -> None:
-        self._states = [self._simulator.reset(self._translator.instance)]
+        self._states = [self._simulator.go_to_end(self._translator.instance, self._before)]
         self._actions: list[int] = []
 
     def _take_back(self, actions: Sequence[int]) -> None:

@@ -3,12 +3,12 @@
 The learner uses numbers and states; wire messages use names and JSON views.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from waypost import wire
 from waypost.domains import Box, Domain, Landmarked, renderer_of, replay_of
-from waypost.trajectory import Segment, State, Trajectory
+from waypost.trajectory import Segment, State, Trajectory, n_steps
 from waypost_learner.algorithms.queries import (
     Answer,
     HierDemo,
@@ -43,6 +43,7 @@ class Translator:
 
     def __init__(self, domain: Domain, instance: Any, camera: Camera | None = None) -> None:
         self.domain, self.instance, self.camera = domain, instance, camera
+        self.before: Trajectory = ()  # the segments before the demonstration that was asked for last
         # The actions and states of a demonstration that was played here; another thread sets both at once.
         self.played: tuple[tuple[int, ...], tuple[State, ...]] = ((), ())
 
@@ -54,18 +55,8 @@ class Translator:
             "instance": self.domain.instance_view(self.instance),
         }
         match query:
-            case HierDemo(state, flat):
-                horizons = self.domain.horizons
-                how = "." if flat else ", one subgoal after the other."
-                return wire.AskHierDemo(
-                    kind="hier_demo",
-                    question=f"Do the whole task yourself{how}",
-                    state=state.view,
-                    flat=flat,
-                    max_segments=horizons.hi,
-                    max_actions=horizons.full,
-                    **common,
-                )
+            case HierDemo():
+                return self._ask_for_demonstration(query, common)
             case InspectFull(sigma):
                 return wire.AskInspectFull(
                     kind="inspect_full",
@@ -111,6 +102,28 @@ class Translator:
                     **common,
                 )
 
+    def _ask_for_demonstration(self, query: HierDemo, common: Mapping[str, Any]) -> wire.AskHierDemo:
+        self.before, self.played = query.before, ((), ())
+        horizons = self.domain.horizons
+        left, question = horizons.full - n_steps(query.before), "Do the whole task yourself"
+        if query.max_segments is not None:
+            left = min(left, query.max_segments * horizons.lo)
+        if query.before:
+            Simulator(self.domain).go_to_end(self.instance, query.before)  # nobody should answer in vain
+            question = f"It failed at “{self._words(query.before[-1])}”. Play on from here"
+        one, several = "until a subgoal is reached", "one subgoal after the other"
+        how = "" if query.flat else f", {one if query.max_segments == 1 else several}"
+        return wire.AskHierDemo(
+            kind="hier_demo",
+            question=f"{question}{how}.",
+            state=query.state.view,
+            flat=query.flat,
+            max_segments=query.max_segments or horizons.hi,
+            max_actions=left,
+            context=self._segments(query.before) if query.before else [],
+            **common,
+        )
+
     def answer(self, answer: wire.Answer) -> Answer:
         """Return an answer in the type that the query's docstring in `algorithms/queries.py` names."""
         match answer:
@@ -136,7 +149,10 @@ class Translator:
         return boxes[:1] if all(one == boxes[0] for one in boxes) else boxes
 
     def _replay(self, segments: Sequence[wire.DemoSegment]) -> Trajectory:
-        """Return a demonstration with the observations along it. Actions after the end of the episode are ignored."""
+        """Return a demonstration with the observations along it, from the start that was asked for last.
+
+        Actions after the end of the episode are ignored.
+        """
         states = self._states([self.domain.actions.index(action) for one in segments for action in one.actions])
         sigma, first = list[Segment](), 0
         for segment in segments:
@@ -149,7 +165,7 @@ class Translator:
         return judged(self.domain, self.instance, tuple(sigma))
 
     def _states(self, actions: Sequence[int]) -> Sequence[State]:
-        """Return the states along actions from the start of the episode, until it ends.
+        """Return the states along actions from the start of the demonstration, until the episode ends.
 
         They are carried out here. If the environment may be random and somebody played these actions, the states are
         those that were seen then.
@@ -158,7 +174,7 @@ class Translator:
         if seen and replay_of(self.domain) != "actions" and tuple(actions[: len(played)]) == played[: len(actions)]:
             return seen[: len(actions) + 1]
         simulator = Simulator(self.domain)
-        states = [simulator.reset(self.instance)]
+        states = [simulator.go_to_end(self.instance, self.before)]
         for action in actions:
             if simulator.ended:
                 break

@@ -8,7 +8,9 @@ import numpy as np
 
 from waypost.domains import Domain, DomainFailed, Ending, Pictured, Restorable, replay_of
 from waypost.domains.failures import explained
-from waypost.trajectory import Action, Outcome, State, Subgoal
+from waypost.trajectory import Action, Outcome, State, Subgoal, Trajectory
+
+ADVICE = 'remove what is random, or let replay = "snapshots" return to states, or use another algorithm'
 
 HeadStart = Callable[[Any], Sequence[Action]]
 """Returns the actions that are carried out on an instance before the learner begins."""
@@ -82,6 +84,30 @@ class Simulator:
         self._env.reset(options={"instance": self.instance})  # begins the time limit again
         self._restorable.restore(self._env, state.snapshot)
         self.ended = self.final = False
+
+    def go_to_end(self, instance: Any, before: Trajectory) -> State:
+        """Start an instance, carry out the segments `before` again, and return the state in which they end.
+
+        Raises:
+            DomainFailed: they do not lead to the same state again.
+        """
+        state = self.reset(instance)
+        if not before:
+            return state
+        last = before[-1].states[-1]
+        if self._restorable is not None:
+            self.restore(last)
+            return last
+        for action in (action for segment in before for action in segment.actions):
+            if self.ended:
+                break
+            state = self.step(action)
+        if self.ended or state.view != last.view or not np.array_equal(state.observation, last.observation):
+            raise DomainFailed(
+                f"the domain {self.domain.name!r} does not come back to a state when its actions are carried out "
+                f"again, so nobody can play on from there; {ADVICE}"
+            )
+        return state
 
     def outcome(self, origin: State, subgoal: Subgoal) -> Outcome | None:
         """Return how a subgoal that was chosen at `origin` has ended; None if it has not ended yet.

@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass, replace
 
-from waypost.domains import InstanceSets, Placed, find_domain
+from waypost.domains import InstanceSets, Placed, find_domain, replay_of
 from waypost_learner.algorithms import Algorithm, find_algorithm
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.experts.head_start import head_start
 from waypost_learner.presets import find_preset
 from waypost_learner.presets.told import STRUCTURE, level_of
+from waypost_learner.rollout.simulator import ADVICE
 from waypost_learner.runs.config import TrainConfig
 from waypost_learner.runs.missing_parts import missing_parts
 from waypost_learner.runs.useless_values import refuse_useless_values
@@ -58,6 +59,11 @@ def set_up(config: TrainConfig, threads: int | None) -> Setup:
     strangers = learner.preset.training.dqn_of.keys() - set(learner.domain.subgoals)
     if strangers:
         raise ValueError(f"dqn_of names {min(strangers)!r}, but the subgoals are: {', '.join(learner.domain.subgoals)}")
+    if algorithm.takes_over and replay_of(learner.domain) == "recorded":
+        raise ValueError(
+            f"{config.algorithm} lets experts play on from earlier states, and the domain {learner.domain.name!r} "
+            f'cannot return to a state (replay = "recorded"): {ADVICE}'
+        )
     if algorithm.gated:
         _refuse_a_blind_gate(learner)
     refuse_useless_values(config, algorithm, learner)

@@ -135,8 +135,10 @@ class Query(ABC, Generic[A]):
 class HierDemo(Query[tuple[wire.DemoSegment, ...]]):
     """Carry out the task from a state. The answer is a tuple of segments, each with its `subgoal` and `actions`.
 
+    With a `context`, the expert takes over: its last segment failed, and the expert plays on from there.
+
     Args:
-        state: the first state of the demonstration, as a JSON value.
+        state: the first state of the demonstration, as a JSON value. It is the last state of the context, if any.
         max_segments: H_HI, the largest number of segments.
         max_actions: H_FULL, the largest number of actions in all segments.
         flat: whether to ask for actions only: the answer is then one segment whose subgoal is None.
@@ -148,15 +150,26 @@ class HierDemo(Query[tuple[wire.DemoSegment, ...]]):
     flat: bool = False
 
     def message(self, ordinal: int) -> wire.AskHierDemo:
-        """Return the query as a message."""
+        """Return the query as a message.
+
+        Raises:
+            ValueError: the context ends in another state.
+        """
+        if self.context and _json(self.context[-1].states[-1]) != _json(self.state):
+            raise ValueError("the demonstration begins in another state than its context ends in; give the same state")
         return wire.AskHierDemo(
             kind="hier_demo",
             state=_json(self.state),
             max_segments=self.max_segments,
             max_actions=self.max_actions,
             flat=self.flat,
-            **self._common(ordinal, "Do the whole task yourself."),
+            **self._common(ordinal, self._words()),
         )
+
+    def _words(self) -> str:
+        if not self.context:
+            return "Do the whole task yourself."
+        return "Play on from here." if self.flat or self.max_segments > 1 else "Play on until a subgoal is reached."
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 import pytest
 from playwright.sync_api import Page, expect
-from tests.browser import test_play
+from tests.browser import test_play, test_takeover
 from tests.browser.access.axe import violations_in_every_look
 from tests.browser.conftest import Open, Stage
 from tests.browser.hands.keyboard import give
@@ -225,6 +225,21 @@ def test_a_demonstration(open_page: Open, learner: Learner, stage: Stage) -> Non
     page.keyboard.press("Enter")
     page.get_by_role("dialog").wait_for()
     check(page, "asked whether to send it")
+
+
+def test_playing_on_from_where_the_learner_failed(open_page: Open, learner: Learner, stage: Stage) -> None:
+    run, query, translator = test_takeover.failed_in_a_maze(learner)
+    stage(learner.served, query, translator)
+    page = open_page(f"/work?run={run}", motion="reduce")
+    test_takeover.is_here(page, "north")
+    check(page, "where it failed")
+    test_play.press(page, "[")
+    check(page, "looking back")
+    test_play.press(page, "n")
+    test_play.walk(page, "uuu")
+    test_play.press(page, "Enter")
+    page.get_by_text("Send the demonstration, or undo a move.").wait_for()
+    check(page, "complete")
 
 
 def test_an_answer_that_came_back(open_page: Open, learner: Learner) -> None:

@@ -23,6 +23,7 @@ from waypost_learner.algorithms.hg_dagger_by_place import hg_dagger_by_place
 from waypost_learner.algorithms.hg_dagger_q import hg_dagger_q
 from waypost_learner.algorithms.hg_gated import hg_gated
 from waypost_learner.algorithms.hg_stagger import hg_stagger
+from waypost_learner.algorithms.hg_takeover import hg_takeover
 from waypost_learner.algorithms.naive_h_dagger import naive_h_dagger
 from waypost_learner.algorithms.plain_dagger import plain_dagger
 from waypost_learner.algorithms.queries import (
@@ -61,6 +62,10 @@ class ScriptedLearner:
         assert (s, sigma) == (S, self.sigma)
         return self.drawn
 
+    def goes_on(self, s: Start, sigma: Trajectory) -> bool:
+        assert s is S
+        return not sigma[-1].final
+
     def first_visits(self, sigma: Trajectory) -> list[int]:
         assert sigma == self.sigma
         return [h for h in range(len(sigma)) if h != self.drawn]
@@ -72,8 +77,16 @@ class Expert:
     `lo_passes` says which segments pass, by place; Label_LO corrects each action to 1 and ends with the segment.
     """
 
-    def __init__(self, sigma: Trajectory, passes: bool, good_subgoals: list[int], lo_passes: list[bool]) -> None:
+    def __init__(
+        self,
+        sigma: Trajectory,
+        passes: bool,
+        good_subgoals: list[int],
+        lo_passes: list[bool],
+        shown: Trajectory | None = None,
+    ) -> None:
         self.sigma, self.passes, self.good_subgoals, self.lo_passes = sigma, passes, good_subgoals, lo_passes
+        self.shown = sigma if shown is None else shown
         self.asked: list[Query] = []
 
     def __call__(self, query: Query) -> Any:
@@ -82,7 +95,7 @@ class Expert:
             case InspectFull():
                 return self.passes
             case HierDemo():
-                return self.sigma
+                return self.shown
             case LabelFull(sigma):
                 return (1,) * n_steps(sigma)
             case LabelHi(sigma):
@@ -209,6 +222,50 @@ def test_stagger_asks_for_the_subgoal_of_one_segment_and_inspects_that_alone(
     assert [row.choice for row in rows_of(labels)[META]] == [good]
     assert (pi(1) in rows_of(labels)) == (LabelLo in kinds)
     assert (pi(1) in rows_of(labels, from_passed=True)) == (InspectLo in kinds)
+
+
+def test_where_a_segment_failed_the_expert_plays_on_and_what_it_shows_is_learned() -> None:
+    sigma = tuple(segment(subgoal, n_actions=2) for subgoal in (0, 1, 2))
+    shown = (segment(3, n_actions=3, action=1),)
+    learner: Any = ScriptedLearner(sigma)
+    expert = Expert(sigma, passes=False, good_subgoals=[0, 1, 2], lo_passes=[True, False, True], shown=shown)
+    labels = carried_out(hg_takeover(S, learner), expert)
+    assert expert.asked == [
+        InspectFull(sigma),
+        LabelHi(sigma),
+        InspectLo(sigma[0], before=()),
+        InspectLo(sigma[1], before=sigma[:1]),
+        HierDemo(sigma[1].states[-1], before=sigma[:2], max_segments=1),
+    ]
+    rows = rows_of(labels)
+    assert rows.keys() == {META, pi(3)}
+    assert [(row.choice, row.termination) for row in rows[pi(3)]] == [(1, -1), (1, 0), (1, 0), (-1, 1)]
+    assert sorted(row.choice for row in rows[META]) == [0, 1, 2, 3]
+    assert labels.passed == [sigma[0]]
+
+
+def test_where_the_episode_ended_with_the_failed_segment_the_segment_is_labeled() -> None:
+    sigma = (segment(0), replace(segment(1, n_actions=2), final=True))
+    learner: Any = ScriptedLearner(sigma)
+    expert = Expert(sigma, passes=False, good_subgoals=[0, 1], lo_passes=[True, False])
+    labels = carried_out(hg_takeover(S, learner), expert)
+    assert expert.asked[3:] == [InspectLo(sigma[1], before=sigma[:1]), LabelLo(sigma[1], before=sigma[:1])]
+    assert rows_of(labels).keys() == {META, pi(1)}
+
+
+@pytest.mark.parametrize(
+    ("good_subgoals", "lo_passes", "passes"),
+    [([0, 1], [], True), ([1, 1], [False] * 2, False), ([0, 1], [True] * 2, False)],
+)
+def test_where_no_segment_failed_at_a_right_subgoal_nobody_takes_over(
+    good_subgoals: list[int], lo_passes: list[bool], passes: bool
+) -> None:
+    sigma = (segment(0), segment(1))
+    both = [Expert(sigma, passes, good_subgoals, lo_passes) for _ in range(2)]
+    learner: Any = ScriptedLearner(sigma)
+    found = [carried_out(one(S, learner), expert) for one, expert in zip((hg_takeover, hg_dagger), both, strict=True)]
+    assert both[0].asked == both[1].asked
+    assert found[0] == found[1]
 
 
 def test_stagger_learns_nothing_of_an_episode_that_passed() -> None:

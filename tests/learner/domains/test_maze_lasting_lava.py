@@ -2,16 +2,22 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from tests.learner.kit import Maze, corridor, examples, mazes, store
 
+from waypost.trajectory import Segment
+from waypost_learner.algorithms.queries import HierDemo
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.env import MAX_STEPS
 from waypost_learner.domains.maze.lasting_lava import LAVA_COST, LastingLavaMazeDomain, LastingLavaMazeEnv
-from waypost_learner.domains.maze.maze import ACTIONS, closed_rooms
+from waypost_learner.domains.maze.maze import ACTIONS, cell_of, closed_rooms
+from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.remote.translation import Translator
+from waypost_learner.rollout.simulator import Simulator
 from waypost_learner.runs.training import train
 
 domain = LastingLavaMazeDomain()
@@ -89,3 +95,24 @@ def test_a_run_asks_about_rollouts_that_were_in_lava(tmp_path: Path) -> None:
         summary = train(config, connection, options)
     assert summary["domain"] == name
     assert summary["cost"]["by_kind"]["label_lo"] + summary["cost"]["by_kind"]["label_hi"] > 0
+
+
+@examples
+@given(mazes(), st.lists(st.sampled_from(range(len(ACTIONS))), max_size=9), st.sampled_from(range(len(ACTIONS))))
+def test_a_demonstration_that_begins_in_lava_teaches_no_way_through_lava(
+    maze: Maze, actions: list[int], toward: int
+) -> None:
+    simulator = Simulator(domain)
+    states, taken = [simulator.reset(maze)], list[int]()
+    for action in [*actions, *[toward] * 16]:
+        if not simulator.ended and not (len(taken) >= len(actions) and maze.lava[cell_of(states[-1].view)]):
+            states.append(simulator.step(action))
+            taken.append(action)
+    assume(not simulator.ended)
+    before = (Segment(0, tuple(states), tuple(taken), terminated=True),)
+    translator = Translator(domain, maze)
+    ask = translator.ask(HierDemo(states[-1], before=before, max_segments=1), 0, 0)
+    demonstration: Any = translator.answer(OracleExpert(domain)(ask))
+    for segment in domain.retraced(demonstration):
+        assert not any(maze.lava[cell_of(state.view)] for state in segment.states)
+        assert all((state.observation[1][maze.lava] == 1).all() for state in segment.states), "no trail in lava"

@@ -7,6 +7,8 @@ from typing import Any
 import pytest
 from tests.learner.exchange.kit import done, refused, trained
 
+from waypost_learner.remote.embedded import stored_runs
+
 CLONE = ("--preset", "tiny", "--seed", "1", "--threads", "1", "--json")
 
 
@@ -31,9 +33,14 @@ def test_demonstrations_give_the_weights_of_the_run_from_store_export_and_import
     assert (stored["episodes"], stored["run"], stored["success_rate"]) == (5, run["run"], run["success_rate"])
 
 
-def test_labels_of_an_interactive_run_give_its_weights_too(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("algorithm", "episodes"), [("hg-dagger", 8), ("hg-takeover", 24)])
+def test_labels_of_an_interactive_run_give_its_weights_too(tmp_path: Path, algorithm: str, episodes: int) -> None:
     """With redrawn instances and the lean preset, so that every instance must be found again and relabeled."""
-    run = trained(tmp_path, preset="tiny-lean", redraw=True, episodes=8)
+    run = trained(tmp_path, algorithm=algorithm, preset="tiny-lean", redraw=True, episodes=episodes)
+    if algorithm == "hg-takeover":
+        with stored_runs(tmp_path / "waypost.db") as source:
+            records: Any = source.records(run["run"], "queries").records
+        assert any(one.ask.kind == "hier_demo" and one.ask.context for one in records), "nobody took over"
     arguments = (run["run"], "--store", tmp_path / "waypost.db", "--checkpoints", tmp_path / "weights")
     found = done("clone", *arguments, "--preset", "tiny-lean", "--seed", "1", "--threads", "1", "--json")
     assert json.loads(found)["weights"] == run["weights"]

@@ -16,11 +16,11 @@ from waypost_learner.remote.embedded import embedded, stored_runs
 CELLS = 13
 
 
-@pytest.fixture(scope="module", params=["hg-dagger", "naive-h-dagger", "flat-dagger", "hg-stagger"])
+@pytest.fixture(scope="module", params=["hg-dagger", "naive-h-dagger", "flat-dagger", "hg-stagger", "hg-takeover"])
 def exported(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str, list[Any]]:
     """The store of a run, the run's id, and its episodes as Minari loads them."""
     folder = tmp_path_factory.mktemp("minari")
-    run = trained(folder, algorithm=request.param, episodes=10)["run"]
+    run = trained(folder, algorithm=request.param, episodes=30 if request.param == "hg-takeover" else 10)["run"]
     done("export", run, "--store", folder / "waypost.db", "--format", "minari", "--out", folder / "data")
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("MINARI_DATASETS_PATH", str(folder / "data"))

@@ -137,6 +137,15 @@ def test_what_a_gate_remembers_survives_an_interruption(tmp_path: Path) -> None:
     assert interrupted(path, config, 14, before_it_arrives=True, route="/episodes") == expected
 
 
+def test_demonstrations_from_where_a_learner_failed_survive_an_interruption(tmp_path: Path) -> None:
+    config = corridor(algorithm="hg-takeover", episodes=20)
+    expected = uninterrupted(tmp_path / "uninterrupted", config)
+    assert any(row[2]["kind"] == "hier_demo" and row[2]["context"] for row in expected[-1])
+    for episode in (6, 14):
+        path = tmp_path / f"interrupted-{episode}"
+        assert interrupted(path, config, episode, before_it_arrives=True, route="/episodes") == expected
+
+
 @pytest.mark.timeout(120)
 def test_a_question_that_was_in_the_dead_experts_hands_is_given_back_at_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

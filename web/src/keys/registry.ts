@@ -53,6 +53,7 @@ export interface Binding {
 export const MODES = [
   ...ANSWERABLE,
   'hier_demo',
+  'play_on', // a demonstration that begins where the learner failed: what it did can be looked at
   'flat_demo',
   'waiting',
   'feedback',
@@ -259,6 +260,7 @@ function answerBindings(mode: Mode): readonly Binding[] {
         },
       ];
     case 'hier_demo':
+    case 'play_on':
       return [
         {
           command: 'reached',
@@ -322,8 +324,8 @@ const GAME_KEYS: Readonly<Record<string, string>> = {
 };
 const DIGITS = '1234567890';
 /** The modes in which subgoals are chosen, and those in which actions are. */
-const OF_SUBGOALS: readonly Mode[] = ['label_hi', 'hier_demo'];
-const OF_ACTIONS: readonly Mode[] = ['label_lo', 'label_full', 'hier_demo', 'flat_demo'];
+const OF_SUBGOALS: readonly Mode[] = ['label_hi', 'hier_demo', 'play_on'];
+const OF_ACTIONS: readonly Mode[] = ['label_lo', 'label_full', 'hier_demo', 'play_on', 'flat_demo'];
 
 function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
   if (!OF_SUBGOALS.includes(mode) && !OF_ACTIONS.includes(mode)) return [];
@@ -332,15 +334,16 @@ function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
     choice(`choose:${index}`, vocabulary.subgoals[index] ?? '', [key, DIGITS[index]]),
   );
   if (mode === 'label_hi') return chosen;
-  const isDemo = mode === 'hier_demo' || mode === 'flat_demo';
+  const isHierarchical = mode === 'hier_demo' || mode === 'play_on';
+  const isDemo = isHierarchical || mode === 'flat_demo';
   const moves = actions.map((key, index) => {
     const name = vocabulary.actions[index] ?? '';
-    const digit = mode === 'hier_demo' ? undefined : DIGITS[index]; // there, subgoals have the digits
+    const digit = isHierarchical ? undefined : DIGITS[index]; // there, subgoals have the digits
     const usual = isDemo ? GAME_KEYS[name.toLowerCase()] : undefined;
     const isFirst = vocabulary.actions.findIndex((one) => GAME_KEYS[one.toLowerCase()] === usual) === index;
     return choice(`${isDemo ? 'act' : 'choose'}:${index}`, name, [key, isFirst ? usual : undefined, digit]);
   });
-  return mode === 'hier_demo' ? [...chosen, ...moves] : moves;
+  return isHierarchical ? [...chosen, ...moves] : moves;
 }
 
 /**

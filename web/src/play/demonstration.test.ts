@@ -1,15 +1,16 @@
 import { describe, expect, it } from 'vitest';
-import type { AskOf, PlayStates, Price } from '../api/types';
+import type { AskOf, PlayStates, Price, Segment } from '../api/types';
 import * as demos from './demonstration';
 import type { Demonstration, Move } from './demonstration';
 
 const ask = {
   kind: 'hier_demo',
   state: 's1',
+  context: [],
   flat: false,
   max_segments: 2,
   max_actions: 4,
-} as AskOf<'hier_demo'>;
+} as unknown as AskOf<'hier_demo'>;
 const flat = { ...ask, flat: true };
 const price: Price = { fixed: 0, per_action: 1, per_segment: 110 };
 
@@ -32,6 +33,45 @@ const news = (known: number, states: string[], more: Partial<PlayStates> = {}): 
   ...more,
 });
 const played = (...moves: Move[]): Demonstration => moves.reduce(demos.make, demos.begin(ask));
+
+describe('a demonstration from where the learner failed', () => {
+  const walked = (subgoal: string, states: string[], actions: string[], frames: string[] = []): Segment => ({
+    subgoal,
+    states,
+    actions,
+    frames,
+    landmarks: [],
+  });
+  const context = [
+    walked('east', ['s-2', 's-1'], ['right'], ['a', 'b']),
+    walked('north', ['s-1', 's0', 's1'], ['up', 'left'], ['b', 'c', 'd']),
+  ];
+  const on = { ...ask, max_segments: 1, context };
+
+  it('is on one tape with what the learner did, whose last segment failed', () => {
+    const tape = demos.tapeOf(
+      demos.learn(played(north, up, up), news(1, ['s2', 's3'], { frames: ['e', 'f'] })),
+      on,
+    );
+    expect(tape.frames).toEqual(['s-2', 's-1', 's0', 's1', 's2', 's3']);
+    expect(tape.pictures).toEqual(['a', 'b', 'c', 'd', 'e', 'f']);
+    expect(tape.start).toBe(3);
+    expect(
+      tape.stretches.map(({ index, first, last, asked, failed }) => [index, first, last, asked, failed]),
+    ).toEqual([
+      [0, 0, 1, false, undefined],
+      [1, 1, 3, false, true],
+      [2, 3, 5, true, undefined],
+    ]);
+  });
+
+  it('is complete with the last segment that may be played, once it is reached', () => {
+    expect(demos.isComplete(played(north, up), on)).toBe(false);
+    expect(demos.isComplete(played(north, up, reach), on)).toBe(true);
+    expect(demos.isComplete(played(north, up, reach), ask)).toBe(false);
+    expect(demos.obstacle(played(north, up, reach), on, north)).toContain('at most 1 segment');
+  });
+});
 
 describe('a demonstration', () => {
   it('is a list of segments, each with its subgoal and actions', () => {
@@ -116,7 +156,7 @@ describe('states', () => {
   });
 
   it('are on the tape as far as they are known', () => {
-    const tape = demos.tapeOf(demos.learn(played(north, up, reach, east, right), news(1, ['s2'])));
+    const tape = demos.tapeOf(demos.learn(played(north, up, reach, east, right), news(1, ['s2'])), ask);
     expect(tape.frames).toEqual(['s1', 's2']);
     expect(tape.stretches.map(({ first, last, actions }) => [first, last, actions])).toEqual([
       [0, 1, ['up']],

@@ -1,7 +1,7 @@
 // A demonstration that is being played, as a list of moves. Pure: no function changes its arguments.
 import type { AnswerOf, AskOf, DemoSegment, Json, PlayStates, Price } from '../api/types';
 import { t } from '../language/language';
-import { landmarksAt, type Landmarks, type Stretch, type Tape } from '../player/tape';
+import { buildTape, landmarksAt, lastFrame, type Landmarks, type Stretch, type Tape } from '../player/tape';
 import { count } from '../ui/format';
 
 /** A move of the annotator. A demonstration is a list of moves, so that each can be undone, including starting over. */
@@ -29,6 +29,11 @@ export interface Part {
 }
 
 type Ask = AskOf<'hier_demo'>;
+
+/** Return whether the demonstration begins where the learner failed. */
+export function playsOn(ask: Ask): boolean {
+  return ask.context.length > 0;
+}
 
 export function begin(ask: Ask, moves: readonly Move[] = []): Demonstration {
   return { moves, states: [ask.state], pictures: [null], landmarks: [{}], ended: false, succeeded: false };
@@ -60,6 +65,12 @@ export function segmentsOf(demonstration: Demonstration): DemoSegment[] {
 
 export function countActions(parts: readonly Part[]): number {
   return parts.reduce((sum, part) => sum + part.actions.length, 0);
+}
+
+/** Return whether there are all the segments that the query allows, and the last one is reached. */
+export function isComplete(demonstration: Demonstration, ask: Ask): boolean {
+  const parts = partsOf(demonstration);
+  return !ask.flat && parts.length >= ask.max_segments && parts.at(-1)?.reached === true;
 }
 
 /** Return whether the states of some actions have not arrived yet. */
@@ -140,18 +151,33 @@ export function answerOf(demonstration: Demonstration, withReplay: boolean): Ans
   return { kind: 'hier_demo', segments, replay: withReplay ? replay : null };
 }
 
-/** Return the demonstration as a tape, as far as its states are known. */
-export function tapeOf(demonstration: Demonstration): Tape {
-  const end = demonstration.states.length - 1;
-  let next = 0;
-  const stretches = partsOf(demonstration).map(({ subgoal, actions }, index): Stretch => {
+/** Return what the learner did before, and the demonstration as far as its states are known, as one tape. */
+export function tapeOf(demonstration: Demonstration, { context }: Ask): Tape {
+  const before = buildTape(context, [], true);
+  const start = lastFrame(before); // where the demonstration begins
+  const end = start + demonstration.states.length - 1;
+  let next = start;
+  const stretches = partsOf(demonstration).map(({ subgoal, actions }, place): Stretch => {
     const first = Math.min(next, end);
     const last = Math.min(next + actions.length, end);
     next += actions.length;
+    const index = context.length + place;
     return { index, subgoal, first, last, actions: actions.slice(0, last - first), asked: true };
   });
   const { states, pictures, landmarks, ended } = demonstration;
-  return { frames: states, pictures, landmarks, stretches, start: 0, goesOn: !ended };
+  const [here] = pictures; // of the first state, which the learner's environment shows as soon as it is here
+  return {
+    frames: [...before.frames.slice(0, start), ...states],
+    pictures: [
+      ...before.pictures.slice(0, start),
+      here ?? before.pictures[start] ?? null,
+      ...pictures.slice(1),
+    ],
+    landmarks: [...before.landmarks.slice(0, start), ...landmarks],
+    stretches: [...before.stretches, ...stretches],
+    start,
+    goesOn: !ended,
+  };
 }
 
 /** Return the demonstration without the states of undone actions. */

@@ -1,16 +1,17 @@
 // @vitest-environment happy-dom
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { Answer, AskOf, PlayMoves, Price, Vocabulary } from '../api/types';
+import type { Answer, AskOf, PlayMoves, Price, Segment, Vocabulary } from '../api/types';
 import { PlayDrafts } from './drafts';
 import { Play } from './play.svelte';
 
 const ask = {
   kind: 'hier_demo',
   state: 0,
+  context: [],
   flat: false,
   max_segments: 3,
   max_actions: 20,
-} as AskOf<'hier_demo'>;
+} as unknown as AskOf<'hier_demo'>;
 const vocabulary: Vocabulary = {
   domain: 'corridor',
   renderer: 'corridor',
@@ -26,7 +27,7 @@ class Scenario {
   sent: Answer[] = [];
   readonly play: Play;
 
-  constructor(more: Partial<AskOf<'hier_demo'>> = {}) {
+  constructor(more: Partial<AskOf<'hier_demo'>> = {}, still = true) {
     this.play = new Play(
       {
         draft: 'run/1',
@@ -35,6 +36,7 @@ class Scenario {
         vocabulary,
         price,
         withReplay: false,
+        still,
       },
       {
         tell: (moves) => this.told.push(moves),
@@ -171,6 +173,82 @@ describe('playing', () => {
         replay: null,
       },
     ]);
+  });
+});
+
+describe('playing on from where the learner failed', () => {
+  const walked = (subgoal: string, states: number[], actions: string[]): Segment => ({
+    subgoal,
+    states,
+    actions,
+    frames: [],
+    landmarks: [],
+  });
+  const context = [
+    walked('door', [2, 1], ['left']),
+    walked('target', [1, 0, 1, 0], ['left', 'right', 'left']),
+  ];
+  const on = { context, max_segments: 1, max_actions: 5 };
+
+  it('first shows how it failed, and begins at the first move', () => {
+    const { play } = new Scenario(on, false).here();
+    expect([play.player.at, play.player.playing, play.looksBack]).toEqual([1, true, true]);
+    expect(play.pointing.choose).toBeNull();
+    play.tick(2);
+    expect([play.scene.at, play.scene.current]).toEqual([3, 1]);
+    play.run('choose:0');
+    expect([play.player.at, play.player.playing, play.looksBack]).toEqual([4, false, false]);
+    expect(play.scene.labels).toEqual([{ frame: 4, name: 'door' }]);
+  });
+
+  it('plays nothing by itself where motion is reduced', () => {
+    const { play } = new Scenario(on).here();
+    expect([play.player.at, play.player.playing]).toEqual([4, false]);
+  });
+
+  it('lets one look back at any time, and steps go on where the demonstration is', () => {
+    const scenario = new Scenario(on).here();
+    scenario.walk('choose:1', 'act:1', 'previous-stop', 'back');
+    expect([scenario.play.scene.at, scenario.play.looksBack]).toEqual([3, true]);
+    expect(scenario.play.demonstration.states).toEqual([0, 1]);
+    scenario.walk('act:1');
+    expect([scenario.play.scene.at, scenario.play.looksBack]).toEqual([6, false]);
+    scenario.play.pointing.show?.(0);
+    expect(scenario.play.scene).toMatchObject({ at: 0, current: 0, labels: [] });
+  });
+
+  it('takes back moves, but nothing that the learner did', () => {
+    const scenario = new Scenario(on).here();
+    scenario.walk('choose:0', 'act:1', 'clear', 'clear', 'clear');
+    expect(scenario.play.hint).toBe('No step is played yet.');
+    expect([scenario.play.tape.frames, scenario.play.scene.at]).toEqual([[2, 1, 0, 1, 0], 4]);
+    scenario.walk('choose:0', 'act:1', 'start-over');
+    expect([scenario.play.tape.frames, scenario.play.scene.at]).toEqual([[2, 1, 0, 1, 0], 4]);
+  });
+
+  it('goes back to the failed state where steps alone are played and taken back', () => {
+    const scenario = new Scenario({ ...on, flat: true }).here();
+    scenario.walk('act:1', 'clear');
+    expect([scenario.play.scene.at, scenario.play.looksBack]).toEqual([4, false]);
+  });
+
+  it('sends one segment without a question, although the task is not accomplished', () => {
+    const scenario = new Scenario(on).here();
+    scenario.walk('choose:0', 'act:1', 'reached');
+    expect([scenario.play.complete, scenario.play.pointing.choose]).toEqual([true, null]);
+    scenario.press('act:1');
+    expect(scenario.play.hint).not.toBe('');
+    scenario.press('reached');
+    expect(scenario.play.doubtful).toBe(false);
+    expect(scenario.sent).toEqual([
+      { kind: 'hier_demo', segments: [{ subgoal: 'door', actions: ['right'] }], replay: null },
+    ]);
+  });
+
+  it('asks before a segment is sent that did not reach its subgoal', () => {
+    const scenario = new Scenario(on).here();
+    scenario.walk('choose:0', 'act:1', 'send');
+    expect([scenario.sent, scenario.play.doubtful]).toEqual([[], true]);
   });
 });
 

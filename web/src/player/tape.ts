@@ -15,6 +15,8 @@ export interface Stretch {
   readonly actions: readonly string[];
   /** Whether the query asks about this segment. Earlier segments are only shown. */
   readonly asked: boolean;
+  /** Whether the learner failed here, and somebody else plays on. */
+  readonly failed?: true;
 }
 
 /** The joined segments of a query. The last state of a segment and the first of the next are one frame. */
@@ -38,7 +40,8 @@ export interface Playable {
   seek(frame: number): void;
 }
 
-export function buildTape(context: readonly Segment[], asked: readonly Segment[]): Tape {
+/** Return the tape of segments. `failed`: the last one of the context failed. */
+export function buildTape(context: readonly Segment[], asked: readonly Segment[], failed = false): Tape {
   const frames: Json[] = [];
   const pictures: (string | null)[] = [];
   const landmarks: Landmarks[] = [];
@@ -57,6 +60,7 @@ export function buildTape(context: readonly Segment[], asked: readonly Segment[]
       last,
       actions: segment.actions,
       asked: index >= context.length,
+      ...(failed && index === context.length - 1 ? { failed } : {}),
     };
   });
   const start = stretches[context.length]?.first ?? 0;

@@ -53,13 +53,14 @@ def retraced(demonstration: Trajectory) -> Iterator[Segment]:
     """Yield segments of other tasks: the way back, room by room, and the way to each cell as if it were the target.
 
     The segment to a cell begins where the path enters the cell's room. The path is used in both directions. The trail
-    in the observations contains the path up to the current cell.
+    in the observations contains the path up to the current cell. Only the path after the last lava is used.
     """
     lava = demonstration[0].start.observation[1] == LAVA
     forward = [cell_of(demonstration[0].start.view)]
     forward += [cell_of(state.view) for segment in demonstration for state in segment.states[1:]]
     if lava[forward[-1]]:
         forward.pop()
+    forward = forward[max((i + 1 for i, cell in enumerate(forward) if lava[cell]), default=0) :]
     backward = forward[::-1]
     for visit, beyond in pairwise(_room_visits(backward)):
         yield from _segment_to(lava, backward[: beyond[0] + 1], visit[0], backward[-1], _action_at(backward, beyond[0]))

@@ -47,6 +47,7 @@ _DASHED, _DOTTED, _DASH_DOT, _LONG = (0, (5, 2)), (0, (1, 1.2)), (0, (6, 2, 1, 2
 _ALGORITHMS = {
     "hg-dagger": Style(_BLUE, "solid", "o"),
     "hg-stagger": Style(_VERMILLION, _DASHED, "s"),
+    "hg-takeover": Style(_GREEN, _DASH_DOT, "^"),
     "h-bc": Style(_VERMILLION, _DASHED, "s"),
     "flat-dagger": Style(_GREEN, _DASH_DOT, "^"),
     "flat-bc": Style(_PURPLE, _DOTTED, "D"),

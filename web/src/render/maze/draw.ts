@@ -107,6 +107,7 @@ function drawTrail(brush: Brush, picture: Picture, stretch: Stretch, lanes: read
 
 /** Return how strongly a segment is drawn up to the current frame, and after it. The current one stands out, if any. */
 function strengthOf(scene: Scene, stretch: Stretch): readonly [past: number, ahead: number] {
+  if (stretch.failed) return [0.75, 0.65];
   if (!stretch.asked) return [0.35, 0.3];
   return stretch.index === scene.current || scene.current === null ? [1, 0.85] : [0.5, 0.6];
 }
@@ -178,7 +179,7 @@ function drawMarkers(brush: Brush, picture: Picture): void {
   const marked = scene.tape.stretches.flatMap((stretch) => {
     const cell = cellAt(picture, stretch.first);
     if (cell === null || stretch.subgoal === null) return [];
-    const text = `${stretch.index + 1}${initial(stretch.subgoal)}`;
+    const text = `${stretch.index + 1}${initial(stretch.subgoal)}${stretch.failed ? '✗' : ''}`;
     const width = Math.max(unit * 0.56, brush.measureText(text).width + letters * 0.5);
     return [{ stretch, text, cell, size: [(letters * 1.4) / unit, width / unit] as const }];
   });
@@ -205,7 +206,7 @@ function drawMarker(
   const unit = unitOf(picture);
   const [left, top] = [rect.left * unit, rect.top * unit];
   const [width, height] = [(rect.right - rect.left) * unit, (rect.bottom - rect.top) * unit];
-  brush.globalAlpha = stretch.asked ? 1 : 0.55;
+  brush.globalAlpha = stretch.asked || stretch.failed ? 1 : 0.55;
   brush.fillStyle = colorOf(picture, stretch);
   brush.beginPath();
   brush.roundRect(left, top, width, height, unit * 0.14);

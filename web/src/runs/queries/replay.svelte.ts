@@ -71,8 +71,8 @@ export function tapeOf({ ask, answer }: Pick<Query, 'ask' | 'answer'>, step: Ste
   if (ask.kind !== 'hier_demo') return buildTape(ask.context, ask.segments);
   const start: Segment = { subgoal: null, states: [ask.state], actions: [], frames: [], landmarks: [] };
   const demonstrated = answer?.kind === 'hier_demo' ? segmentsOf(ask.state, answer, step) : null;
-  if (demonstrated !== null) return buildTape(ask.context, demonstrated);
-  return { ...buildTape(ask.context, [start]), goesOn: true };
+  if (demonstrated !== null) return buildTape(ask.context, demonstrated, true);
+  return { ...buildTape(ask.context, [start], true), goesOn: true };
 }
 
 /** Return the segments of a demonstration with their states: computed, or else as the annotator saw them. */

@@ -43,6 +43,36 @@ describe('the replay of a query', () => {
     expect([unanswered.frames, unanswered.goesOn]).toEqual([[[5, 2]], true]);
   });
 
+  it('shows a demonstration after what the learner did, which failed in its last segment', () => {
+    const context = [
+      {
+        subgoal: 'west',
+        states: [
+          [5, 3],
+          [5, 2],
+        ],
+        actions: ['left'],
+        frames: [],
+        landmarks: [],
+      },
+    ];
+    const ask = { kind: 'hier_demo', context, state: [5, 2] } as unknown as Query['ask'];
+    const segments = [{ subgoal: 'north', actions: ['up'] }];
+    const tape = tapeOf({ ask, answer: { kind: 'hier_demo' as const, segments, replay: null } }, stepMaze);
+    expect([tape.frames, tape.start]).toEqual([
+      [
+        [5, 3],
+        [5, 2],
+        [4, 2],
+      ],
+      1,
+    ]);
+    expect(tape.stretches.map(({ asked, failed }) => [asked, failed])).toEqual([
+      [false, true],
+      [true, undefined],
+    ]);
+  });
+
   it('shows a demonstration of any other domain as the annotator saw it', () => {
     const ask = { kind: 'hier_demo', context: [], state: 's1' } as unknown as Query['ask'];
     const segments = [
