@@ -40,7 +40,12 @@ class Terminal:
         self._shell = subprocess.Popen(
             ["bash", "-e"],
             cwd=folder,
-            env={"PATH": f"{stubs}:{python}:/usr/bin:/bin", "HOME": str(Path.home()), "NO_COLOR": "1"},
+            env={
+                "PATH": f"{stubs}:{python}:/usr/bin:/bin",
+                "HOME": str(Path.home()),
+                "NO_COLOR": "1",
+                "PIP_NO_COMPILE": "1",  # for speed: most of what PyTorch installs is never imported here
+            },
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
