@@ -8,19 +8,20 @@ import argparse
 import io
 import shutil
 import tempfile
-from collections.abc import Callable
-from contextlib import ExitStack, closing
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from PIL import Image
 from playwright.sync_api import Page
-from tests.browser import test_play
+from tests.browser import test_play, test_takeover
 from tests.browser.conftest import MAZE, WEB, WIDE
 from tests.browser.kit import Learner, ask, chromium, log_in, wait_for_heading
 
 from waypost.client import Client
 from waypost_learner.remote.stage import offer
+from waypost_learner.remote.translation import Translator
 from waypost_server import serving
 from waypost_server.auth import tokens
 from waypost_server.serving import Served
@@ -96,19 +97,32 @@ class Gallery:
         self.take("waiting")
         self.learner.call("PATCH", f"/runs/{run}", {"state": "finished"})
 
-    def demonstration(self) -> None:
-        """A demonstration under way."""
+    def demonstrations(self) -> None:
+        """A demonstration under way, and one that goes on where a learner failed."""
         run = self.learner.create_run("maze-lean")
-        query = self.learner.ask(run, test_play.ask())[0]
-        user = self.served.db.write_now(lambda tx: users.ensure_user(tx, "learner", "learner"))
-        token = self.served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "stage")).token
-        with closing(Client(self.served.url, token)) as client, ExitStack() as stack:
-            stack.callback(offer(lambda: client.play(query), MAZE, client.upload))
+        with self._offered(self.learner.ask(run, test_play.ask())[0], MAZE):
             self.page.goto(f"/work?run={run}")
             test_play.is_here(self.page)
             test_play.way(self.page, test_play.WAY[:5])
             self.take("hier-demo")
         self.learner.call("PATCH", f"/runs/{run}", {"state": "finished"})
+        run, query, translator = test_takeover.failed_in_a_maze(self.learner)
+        with self._offered(query, translator):
+            self.page.goto(f"/work?run={run}")
+            test_takeover.is_here(self.page, "north")
+            test_play.press(self.page, "n")
+            test_play.walk(self.page, "u")
+            self.take("play-on")
+        self.learner.call("PATCH", f"/runs/{run}", {"state": "finished"})
+
+    @contextmanager
+    def _offered(self, query: int, translator: Translator) -> Iterator[None]:
+        """Let the learner's environment take part in a demonstration."""
+        user = self.served.db.write_now(lambda tx: users.ensure_user(tx, "learner", "learner"))
+        token = self.served.db.write_now(lambda tx: tokens.create_token(tx, user.id, "stage")).token
+        with closing(Client(self.served.url, token)) as client, ExitStack() as stack:
+            stack.callback(offer(lambda: client.play(query), translator, client.upload))
+            yield
 
     def runs(self, run: str, others: list[str]) -> None:
         """What is seen of runs: the list, one of them and its parts, several overlaid."""
@@ -168,7 +182,7 @@ def take_all(folder: Path, store: Path | None, looks: list[list[str]], only_work
                 if role == "annotator":
                     gallery.questions()
                 if role == "annotator" and size != "landscape":
-                    gallery.demonstration()
+                    gallery.demonstrations()
                     gallery.practice()
                 elif size != "landscape" and not only_work:
                     gallery.runs(run, [one["id"] for one in there])

@@ -108,6 +108,7 @@ def test_pictures_show_what_the_learner_did_and_the_steps_that_are_played_on(
     is_here(page, "east")
     strip = page.get_by_role("list", name="Steps").get_by_role("listitem")
     expect(strip.locator("abbr")).to_have_text(["1E", "2E"])
+    expect(strip.get_by_text("✗")).to_have_count(1)
     strip.first.get_by_role("button").click()
     expect(page.get_by_text("This is what the learner did.")).to_be_visible()
     expect(page.get_by_role("img", name="The state, step 0 of 5")).to_be_visible()
