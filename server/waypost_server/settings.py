@@ -114,14 +114,16 @@ class Settings(BaseSettings):
         description="VALUE=ROLE, comma-separated: the first VALUE in the claim gives the ROLE, and * fits everybody.",
     )
     oidc_create: bool = Field(default=False, description="Whether somebody unknown who signs in becomes a user.")
-    practice: Path | None = Field(
-        default=None, description="A file that `waypost practice` wrote; the default has queries about mazes."
+    practice: Annotated[tuple[Path, ...], NoDecode] = Field(
+        default=(),
+        description="Files that `waypost practice` wrote, comma-separated, one for each domain; "
+        "without any, people practice on mazes.",
     )
     page: Path | None = Field(
         default=None, description="The folder of the built web app; the default is found automatically."
     )
 
-    @field_validator("hosts", "trusted_proxies", "webhook_hosts", "webhook_networks", mode="before")
+    @field_validator("hosts", "trusted_proxies", "webhook_hosts", "webhook_networks", "practice", mode="before")
     @classmethod
     def _split(cls, value: object) -> object:
         return tuple(name.strip() for name in value.split(",") if name.strip()) if isinstance(value, str) else value

@@ -1,13 +1,19 @@
 """People in the page: let in, sent away, their tokens and numbers; practice; gold queries nobody can tell apart."""
 
+import json
 from contextlib import closing
+from pathlib import Path
 
 import httpx2
 from playwright.sync_api import Page, expect
+from tests.browser.access.axe import violations
 from tests.browser.conftest import Open
-from tests.browser.kit import Complaints, Learner, ask, login_link, wait_for_heading
+from tests.browser.kit import VOCABULARY, Complaints, Learner, ask, login_link, wait_for_heading
 
+from waypost_server import serving
+from waypost_server.gold.practice import SHIPPED
 from waypost_server.serving import Served
+from waypost_server.settings import Settings
 
 QUESTION = ask("inspect_full")["question"]
 
@@ -139,6 +145,34 @@ def test_somebody_new_practices_by_keyboard(open_page: Open, served: Served, lea
     page.get_by_role("link", name="Go to work").click()
     wait_for_heading(page, "No question right now")
     expect(page.get_by_text("0 answers")).to_be_visible()
+
+
+def test_people_practice_in_the_domain_of_a_run_or_choose_another(
+    open_page: Open, built_page: Path, tmp_path: Path
+) -> None:
+    own, file = json.loads(SHIPPED.read_text()), tmp_path / "taxi.json"
+    own["vocabulary"]["domain"] = "taxi"
+    file.write_text(json.dumps(own | {"exercises": own["exercises"][:4]}))
+    database = f"sqlite:///{tmp_path / 'waypost.db'}"
+    with (
+        serving.background(Settings(database=database, page=built_page, practice=(SHIPPED, file))) as served,
+        closing(Learner(served)) as learner,
+    ):
+        learner.create_run("of taxis", vocabulary=VOCABULARY | {"domain": "taxi"})
+        page = open_page("/practice", at=served)
+        expect(page.get_by_role("radio", name="taxi")).to_be_checked()
+        expect(page.get_by_text("These are 4 questions")).to_be_visible()
+        page.get_by_role("radio", name="taxi").press("ArrowLeft")
+        expect(page.get_by_text("These are 10 questions")).to_be_visible()
+        expect(page.get_by_role("radio", name="maze")).to_be_focused()
+        assert violations(page) == []
+        page.get_by_role("radio", name="maze").press("ArrowRight")
+        expect(page.get_by_text("These are 4 questions")).to_be_visible()
+        page.keyboard.press("Tab")
+        page.keyboard.press("Enter")
+        wait_for_heading(page, "Did it do the whole task?")
+        page.keyboard.press("p")
+        wait_for_heading(page, "Right")
 
 
 def test_gold_queries_are_set_in_the_page_and_not_seen_by_annotators(

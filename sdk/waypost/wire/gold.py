@@ -144,13 +144,14 @@ class WorkedExample(Message):
 
 
 class Practice(Message):
-    """The practice queries in their order, sent by the server. Practice stores nothing and costs nothing."""
+    """The practice queries of a domain in their order, sent by the server. Practice stores and costs nothing."""
 
     vocabulary: Vocabulary
     queries: list[PracticeQuery]
     examples: list[WorkedExample] = Field(
         description="The last query of each kind, for the kinds that have several queries."
     )
+    domains: list[str] = Field(description="All domains that can be practiced on this server.")
 
 
 class PracticeAnswer(Message):

@@ -1,4 +1,4 @@
-"""Practice queries, read from a file that `waypost practice` wrote."""
+"""Practice queries, read from files that `waypost practice` wrote: one for each domain."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -37,17 +37,16 @@ class BadPractice(Exception):
 
 
 class PracticeSet:
-    """The practice queries of a server."""
+    """The practice queries of one domain. Their ids are numbers from `first`."""
 
-    def __init__(self, path: Path | None = None, most_frame_bytes: int = 2**20) -> None:
-        """Read the file at `path`, or the file in this package. A frame may have at most `most_frame_bytes`.
+    def __init__(self, path: Path, most_frame_bytes: int = 2**20, first: int = 0) -> None:
+        """Read a file. A frame may have at most `most_frame_bytes`.
 
         Raises:
             BadPractice: with one sentence for the operator.
         """
-        chosen = path or SHIPPED
         try:
-            self._file = PracticeFile.model_validate_json(chosen.read_bytes())
+            self._file = PracticeFile.model_validate_json(path.read_bytes())
             self._names = checks.Names.of(self._file.vocabulary)
             self.frames = frames.decode(self._file.frames, most_frame_bytes)
             for place, one in enumerate(self._file.exercises):
@@ -55,8 +54,10 @@ class PracticeSet:
         except (OSError, ValidationError, errors.Unprocessable) as error:
             reason = str(error).partition("\n")[0]
             raise BadPractice(
-                f"{chosen} has no practice queries: {reason}; `waypost practice` writes such a file."
+                f"{path} has no practice queries: {reason}; `waypost practice` writes such a file."
             ) from None
+        self.domain = self._file.vocabulary.domain
+        self.ids = range(first, first + len(self._file.exercises))
 
     def _check(self, one: Exercise, at: errors.Location) -> None:
         checks.check_ask(one.ask, self._names, [*at, "ask"])
@@ -65,10 +66,12 @@ class PracticeSet:
                 raise errors.Unprocessable([*at, "ask"], f"frame {min(absent)} is not in the file")
         scoring.check(one.ask, one.known, self._names, [*at, "known"])
 
-    def questions(self) -> wire.Practice:
+    def questions(self, domains: Sequence[str] = ()) -> wire.Practice:
         """Return the queries without their known answers, except those of the examples."""
-        asks = [wire.PracticeQuery(id=place, ask=one.ask) for place, one in enumerate(self._file.exercises)]
-        return wire.Practice(vocabulary=self._file.vocabulary, queries=asks, examples=self._examples())
+        asks = [wire.PracticeQuery(id=n, ask=one.ask) for n, one in zip(self.ids, self._file.exercises, strict=True)]
+        return wire.Practice(
+            vocabulary=self._file.vocabulary, queries=asks, examples=self._examples(), domains=list(domains)
+        )
 
     def _examples(self) -> list[wire.WorkedExample]:
         """Return a worked example of each kind of which a query is left to answer."""
@@ -80,7 +83,51 @@ class PracticeSet:
     def _example(self, place: int) -> wire.WorkedExample:
         one = self._file.exercises[place]
         feedback = wire.Feedback(marks=scoring.solved(one.known), reasons=one.reasons, is_right=True)
-        return wire.WorkedExample(query=place, feedback=feedback)
+        return wire.WorkedExample(query=self.ids[place], feedback=feedback)
+
+    def mark(self, query: int, answer: wire.Answer) -> wire.Feedback:
+        """Score an answer.
+
+        Raises:
+            Unprocessable: the answer does not fit the query.
+        """
+        one = self._file.exercises[self.ids.index(query)]
+        checks.check_answer(one.ask, answer, self._names, ["body", "answer"])
+        marks = scoring.marks(one.known, answer)
+        return wire.Feedback(marks=marks, reasons=one.reasons, is_right=all(mark.is_right for mark in marks))
+
+
+class PracticeSets:
+    """The practice queries of a server."""
+
+    def __init__(self, paths: Sequence[Path] = (), most_frame_bytes: int = 2**20) -> None:
+        """Read the files, or the file in this package if there are none.
+
+        Raises:
+            BadPractice: with one sentence for the operator.
+        """
+        self._sets: dict[str, PracticeSet] = {}
+        self.frames: dict[str, bytes] = {}
+        first = 0
+        for path in paths or (SHIPPED,):
+            one = PracticeSet(path, most_frame_bytes, first)
+            if one.domain in self._sets:
+                raise BadPractice(f"{path} is a second file of practice queries about {one.domain!r}; name only one.")
+            self._sets[one.domain] = one
+            self.frames |= one.frames
+            first = one.ids.stop
+
+    def questions(self, domain: str | None = None) -> wire.Practice:
+        """Return the queries of a domain, or of the first one.
+
+        Raises:
+            NotFound: there are none for this domain.
+        """
+        domains = list(self._sets)
+        chosen = self._sets.get(domains[0] if domain is None else domain)
+        if chosen is None:
+            raise errors.NotFound(f"There is no practice for {domain!r}, only for: {', '.join(domains)}.")
+        return chosen.questions(domains)
 
     def mark(self, query: int, answer: wire.Answer) -> wire.Feedback:
         """Score an answer.
@@ -88,22 +135,19 @@ class PracticeSet:
         Raises:
             NotFound, Unprocessable: there is no such query, or the answer does not fit it.
         """
-        exercises: Sequence[Exercise] = self._file.exercises
-        if query >= len(exercises):
+        found = next((one for one in self._sets.values() if query in one.ids), None)
+        if found is None:
             raise errors.NotFound(f"There is no practice query {query}.")
-        one = exercises[query]
-        checks.check_answer(one.ask, answer, self._names, ["body", "answer"])
-        marks = scoring.marks(one.known, answer)
-        return wire.Feedback(marks=marks, reasons=one.reasons, is_right=all(mark.is_right for mark in marks))
+        return found.mark(query, answer)
 
 
-async def open_practice(db: Database, path: Path | None, most_frame_bytes: int) -> PracticeSet:
+async def open_practice(db: Database, paths: Sequence[Path], most_frame_bytes: int) -> PracticeSets:
     """Read the practice queries, and store their pictures, so that the web app finds them like those of a run.
 
     Raises:
         BadPractice: with one sentence for the operator.
     """
-    practice = PracticeSet(path, most_frame_bytes)
+    practice = PracticeSets(paths, most_frame_bytes)
     if practice.frames:
         await db.write(lambda tx: _keep(tx, practice.frames))
     return practice
@@ -114,9 +158,9 @@ def _keep(tx: Tx, files: dict[str, bytes]) -> None:
     frames.pin(tx, files)
 
 
-async def practice_of(connection: HTTPConnection) -> PracticeSet:
+async def practice_of(connection: HTTPConnection) -> PracticeSets:
     """Return the practice queries of the app that serves a request."""
-    return cast(PracticeSet, connection.app.state.practice)
+    return cast(PracticeSets, connection.app.state.practice)
 
 
-Exercises = Annotated[PracticeSet, Depends(practice_of)]
+Exercises = Annotated[PracticeSets, Depends(practice_of)]

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Path
+from fastapi import APIRouter, Path, Query
 
 from waypost import wire
 from waypost_server import errors
@@ -14,10 +14,16 @@ from waypost_server.http.problems import refusals
 router = APIRouter(prefix="/practice", tags=["practice"], route_class=JsonRoute)
 
 
-@router.get("", operation_id="getPractice")
-async def get_practice(exercises: Exercises, _: Allowed) -> wire.Practice:
-    """Return the practice queries in the order to answer them."""
-    return exercises.questions()
+@router.get("", operation_id="getPractice", responses=refusals(errors.NotFound))
+async def get_practice(
+    exercises: Exercises,
+    _: Allowed,
+    domain: Annotated[
+        str | None, Query(max_length=100, description="The domain to practice; the first of all if absent.")
+    ] = None,
+) -> wire.Practice:
+    """Return the practice queries of a domain in the order to answer them."""
+    return exercises.questions(domain)
 
 
 @router.post("/{query}", operation_id="practice", responses=refusals(errors.NotFound))

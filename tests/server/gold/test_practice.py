@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 from tests.server.kit import API, Json, Service, frame, in_process, png
 
-from waypost_server.gold.practice import SHIPPED, BadPractice, PracticeSet
+from waypost_server.gold.practice import SHIPPED, BadPractice, PracticeSet, PracticeSets
+from waypost_server.settings import Settings
 
 EXERCISES = json.loads(SHIPPED.read_text())["exercises"]
 
@@ -74,13 +75,37 @@ def test_a_server_can_have_practice_of_its_own(sqlite_url: str, tmp_path: Path) 
     own = json.loads(SHIPPED.read_text())
     own["exercises"] = own["exercises"][:1]
     file.write_text(json.dumps(own))
-    with in_process(sqlite_url, practice=file) as service:
+    with in_process(sqlite_url, practice=(file,)) as service:
         assert len(service.annotator.get("/practice")["queries"]) == 1
     own["exercises"][0]["known"]["kind"] = "inspect_lo"
     file.write_text(json.dumps(own))
     for path in (file, tmp_path / "missing.json"):
         with pytest.raises(BadPractice, match="has no practice queries"):
             PracticeSet(path)
+
+
+def test_each_domain_can_have_practice_of_its_own(sqlite_url: str, tmp_path: Path) -> None:
+    own, file = json.loads(SHIPPED.read_text()), tmp_path / "taxi.json"
+    own["vocabulary"]["domain"] = "taxi"
+    file.write_text(json.dumps(own | {"exercises": own["exercises"][:3]}))
+    with in_process(sqlite_url, practice=(SHIPPED, file)) as service:
+        maze, taxi = (service.annotator.get(f"/practice{search}") for search in ("", "?domain=taxi"))
+        assert [one["vocabulary"]["domain"] for one in (maze, taxi)] == ["maze", "taxi"]
+        assert maze["domains"] == taxi["domains"] == ["maze", "taxi"]
+        assert [one["id"] for one in maze["queries"] + taxi["queries"]] == list(range(len(EXERCISES) + 3))
+        for query in taxi["queries"]:
+            answer = best(EXERCISES[query["id"] - len(EXERCISES)], 0)
+            assert service.annotator.post(f"/practice/{query['id']}", {"answer": answer})["is_right"]
+        service.annotator.post(f"/practice/{len(EXERCISES) + 3}", {"answer": answer}, 404)
+        refused = service.annotator.get("/practice?domain=none", 404)
+        assert refused["detail"] == "There is no practice for 'none', only for: maze, taxi."
+    with pytest.raises(BadPractice, match="a second file of practice queries about 'taxi'"):
+        PracticeSets((file, file))
+
+
+def test_several_files_are_named_in_one_setting(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("WAYPOST_PRACTICE", "maze.json, taxi.json")
+    assert Settings().practice == (Path("maze.json"), Path("taxi.json"))
 
 
 def test_the_pictures_of_practice_queries_are_served_like_those_of_a_run(sqlite_url: str, tmp_path: Path) -> None:
@@ -91,7 +116,7 @@ def test_the_pictures_of_practice_queries_are_served_like_those_of_a_run(sqlite_
     own |= {"frames": [picture], "exercises": own["exercises"][:1]}
     file = tmp_path / "practice.json"
     file.write_text(json.dumps(own))
-    with in_process(sqlite_url, practice=file) as service:
+    with in_process(sqlite_url, practice=(file,)) as service:
         (query,) = service.annotator.get("/practice")["queries"]
         assert query["ask"]["segments"] == ask["segments"]
         reply = service.client.get(f"{API}/frames/{picture['hash']}", headers=service.annotator.headers)

@@ -1251,7 +1251,7 @@ export interface paths {
         };
         /**
          * Get Practice
-         * @description Return the practice queries in the order to answer them.
+         * @description Return the practice queries of a domain in the order to answer them.
          *
          *     Every role may call it.
          */
@@ -4085,7 +4085,7 @@ export interface components {
         };
         /**
          * Practice
-         * @description The practice queries in their order, sent by the server. Practice stores nothing and costs nothing.
+         * @description The practice queries of a domain in their order, sent by the server. Practice stores and costs nothing.
          */
         Practice: {
             vocabulary: components["schemas"]["Vocabulary"];
@@ -4096,6 +4096,11 @@ export interface components {
              * @description The last query of each kind, for the kinds that have several queries.
              */
             examples: components["schemas"]["WorkedExample"][];
+            /**
+             * Domains
+             * @description All domains that can be practiced on this server.
+             */
+            domains: string[];
         };
         /**
          * PracticeAnswer
@@ -10685,7 +10690,10 @@ export interface operations {
     };
     getPractice: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description The domain to practice; the first of all if absent. */
+                domain?: string | null;
+            };
             header?: never;
             path?: never;
             cookie?: never;
@@ -10712,6 +10720,15 @@ export interface operations {
             };
             /** @description Not allowed; Refused from another site */
             403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
 import { beforeEach, expect, test } from 'vitest';
 import type { Kind, Me, Outlook, Practice } from '../api/types';
-import { firstQueries, isNew, remember } from './first';
+import { domainToPractice, firstQueries, isNew, remember } from './first';
 
 const me = (more: Partial<Me>): Me => ({ id: 7, role: 'annotator', answers: 0, ...more }) as Me;
 const kinds: Kind[] = ['inspect_full', 'inspect_full', 'label_hi', 'label_hi', 'label_lo'];
@@ -9,6 +9,7 @@ const practice = {
   vocabulary: { domain: 'maze' },
   queries: kinds.map((kind, id) => ({ id, ask: { kind } })),
   examples: [{ query: 1 }, { query: 3 }],
+  domains: ['maze', 'taxi'],
 } as unknown as Practice;
 const outlook = (...runs: object[]): Outlook => ({ open: 0, runs }) as unknown as Outlook;
 const ids = (found: Practice['queries']): number[] => found.map(({ id }) => id);
@@ -29,6 +30,13 @@ test('one of each kind that is asked is practiced, and none that is a worked exa
   expect(ids(firstQueries(practice, outlook(run)))).toEqual([2]);
   expect(ids(firstQueries(practice, outlook({ ...run, kinds: [] })))).toEqual([0, 2, 4]);
   expect(ids(firstQueries(practice, outlook()))).toEqual([0, 2, 4]);
+});
+
+test('what is practiced is the domain of a learner at work, if it has practice', () => {
+  const run = (domain: string, doing = 'asking'): object => ({ domain, doing, kinds: [] });
+  expect(domainToPractice(practice, outlook(run('other'), run('taxi'), run('maze')))).toBe('taxi');
+  expect(domainToPractice(practice, outlook(run('taxi', 'finished'), run('maze')))).toBe('maze');
+  expect(domainToPractice(practice, outlook(run('other')))).toBeNull();
 });
 
 test('nothing is practiced for a domain of which the person gets no queries', () => {

@@ -18,6 +18,12 @@ export function remember(me: Me, storage: Storage): void {
   }
 }
 
+/** Return the domain to practice: the first that has practice of those whose learners are at work, if there is one. */
+export function domainToPractice({ domains }: Practice, outlook: Outlook): string | null {
+  const live = outlook.runs.filter((run) => run.doing !== 'finished');
+  return live.map((run) => run.domain).find((domain) => domains.includes(domain)) ?? null;
+}
+
 /**
  * Return the practice queries for somebody new: one of each kind that the learners of this domain ask. It is empty if
  * the learners of this server are of other domains only: the practice would teach nothing of use.

@@ -1,7 +1,7 @@
 // A practice session: one query after the other, each with feedback. Nothing is stored.
 import { api, unwrap, wordsOf } from '../api/client';
 import type { Answer, Answerable, AnswerableKind, Feedback, Practice, Vocabulary } from '../api/types';
-import { firstQueries } from './first';
+import { domainToPractice, firstQueries } from './first';
 
 /** `useless`: the first practice has nothing that the person will be asked. */
 export type Phase = 'loading' | 'intro' | 'example' | 'question' | 'feedback' | 'done' | 'failed' | 'useless';
@@ -32,19 +32,23 @@ export class PracticeSession {
   readonly right = $derived(this.results.filter(Boolean).length);
   readonly query: PracticeQuery | null = $derived(this.#queries()[this.place] ?? null);
   readonly vocabulary: Vocabulary | null = $derived(this.#practice?.vocabulary ?? null);
+  readonly domains: readonly string[] = $derived(this.#practice?.domains ?? []);
 
   /** A session of all practice queries, or the first one of a person, with worked examples. */
   constructor(isFirst: boolean) {
     this.#isFirst = isFirst;
   }
 
-  async load(): Promise<void> {
-    this.phase = 'loading';
+  /** Load the practice of a domain; by default, of one whose learner is at work. */
+  async load(domain?: string): Promise<void> {
+    if (this.phase !== 'intro') this.phase = 'loading'; // the choice of the domain stays where it is
     try {
-      const practice = await unwrap(api.GET('/api/v1/practice'));
+      const outlook = await unwrap(api.GET('/api/v1/outlook'));
+      const usual = await practiceOf(domain);
+      const other = domain === undefined ? domainToPractice(usual, outlook) : null;
+      const practice = other === null || other === usual.vocabulary.domain ? usual : await practiceOf(other);
       this.#examples = this.#isFirst ? workedExamples(practice) : [];
-      const outlook = this.#isFirst ? await unwrap(api.GET('/api/v1/outlook')) : null;
-      const queries = outlook === null ? practice.queries : firstQueries(practice, outlook);
+      const queries = this.#isFirst ? firstQueries(practice, outlook) : practice.queries;
       this.#practice = { ...practice, queries };
       if (!this.#isFirst) this.phase = 'intro';
       else if (this.total === 0) this.phase = 'useless';
@@ -117,6 +121,10 @@ export class PracticeSession {
     const queries = this.#practice?.queries ?? [];
     return queries.flatMap(({ id, ask }) => (ask.kind === 'hier_demo' ? [] : [{ id, ask }]));
   }
+}
+
+function practiceOf(domain?: string): Promise<Practice> {
+  return unwrap(api.GET('/api/v1/practice', { params: { query: domain === undefined ? {} : { domain } } }));
 }
 
 function workedExamples(practice: Practice): WorkedExample[] {
