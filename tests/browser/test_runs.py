@@ -26,7 +26,7 @@ def test_a_run_is_followed_live(open_page: Open, learner: Learner) -> None:
     expect(page.get_by_text("The learner has asked nothing yet.")).to_be_visible()
     learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
     expect(page.get_by_text("6 units reserved")).to_be_visible()
-    asked = page.get_by_role("row", name="Label_HI 0.1")
+    asked = page.get_by_role("row", name="Label_HI 0, query 1")
     expect(asked).to_contain_text("open")
     learner.report(run, [False, True])
     expect(page.get_by_role("row", name="1 50%")).to_be_hidden()
@@ -40,7 +40,7 @@ def test_a_run_is_followed_live(open_page: Open, learner: Learner) -> None:
     worker = open_page(f"/work?run={run}")
     wait_for_heading(worker, ask("inspect_full")["question"])
     worker.keyboard.press("f")
-    answered = page.get_by_role("row", name="Inspect_FULL 0.0")
+    answered = page.get_by_role("row", name="Inspect_FULL 0, query 0")
     expect(answered).to_contain_text("answered")
     expect(answered).to_contain_text("✗ fail")
     expect(answered).to_contain_text("person-")
@@ -55,9 +55,10 @@ def test_annotators_watch_a_run_but_not_its_single_queries(open_page: Open, lear
     page = open_page(f"/runs/{run}")
     expect(page.get_by_role("slider", name="Success on unseen instances")).to_be_visible()
     expect(page.get_by_role("listitem").filter(has_text="Did the whole task work?, ep. 0")).to_be_visible()
-    expect(page.get_by_text(re.compile("reserved|of 100 units"))).to_have_count(0)  # they do not pay
     sections = page.get_by_role("navigation", name="This run").get_by_role("link")
-    expect(sections).to_have_text(["Overview", "Overlay"])
+    expect(sections).to_have_text(["Overview"])
+    for words in ("reserved|units", "Cost so far", "Until success reaches"):  # they do not pay
+        expect(page.get_by_text(re.compile(words))).to_have_count(0)
     expect(page.get_by_role("heading", name="Recent queries")).to_be_hidden()
     expect(page.get_by_role("link", name=re.compile("Inspect_FULL|CSV"))).to_have_count(0)
     page.goto(f"/runs/{run}/queries")
@@ -182,7 +183,7 @@ def test_a_query_is_seen_with_its_trajectory_its_answer_and_its_price(open_page:
 def test_a_label_that_the_segment_should_not_have_ended_is_shown(
     open_page: Open, learner: Learner, last: str, explained: bool
 ) -> None:
-    run = learner.create_run("not done")
+    run = learner.create_run("without an end")
     asked = ask("label_lo")
     [query] = learner.ask(run, asked)
     page = open_page(f"/work?run={run}")
@@ -199,7 +200,7 @@ def test_a_label_that_the_segment_should_not_have_ended_is_shown(
 def test_a_finished_run_waits_for_nobody(open_page: Open, learner: Learner) -> None:
     run = learner.create_run("over")
     page = open_page(f"/runs/{run}", role="viewer")
-    expect(page.get_by_text("Open queries wait for an annotator.")).to_be_visible()
+    expect(page.get_by_text("What is asked waits for an annotator.")).to_be_visible()
     learner.call("PATCH", f"/runs/{run}", {"state": "finished"})
     expect(page.get_by_text("Nobody. The run is finished.")).to_be_visible()
 
@@ -212,7 +213,7 @@ def test_a_run_is_renamed_preferred_limited_and_finished(
     learner.ask(run, ask("label_hi"))
     page = open_page(f"/runs/{run}", role="admin")
     page.get_by_role("button", name="Change…").click()
-    page.get_by_role("textbox", name="Name").fill("changed")
+    page.get_by_role("textbox", name="Name").fill("another name")
     page.get_by_role("spinbutton", name="Priority").fill("7")
     page.get_by_role("checkbox", name="The run may cost at most").check()
     page.get_by_role("spinbutton", name="Units").fill("4")
@@ -221,9 +222,9 @@ def test_a_run_is_renamed_preferred_limited_and_finished(
     page.get_by_role("spinbutton", name="Units").fill("5.5")
     page.get_by_role("button", name="Save").click()
     expect(page.get_by_role("dialog")).to_be_hidden()
-    expect(page.get_by_role("heading", name="changed")).to_be_visible()
+    expect(page.get_by_role("heading", name="another name")).to_be_visible()
     now = learner.call("GET", f"/runs/{run}")
-    assert (now["name"], now["priority"], now["budget"]) == ("changed", 7, 5.5)
+    assert (now["name"], now["priority"], now["budget"]) == ("another name", 7, 5.5)
     page.get_by_role("button", name="Finish…").click()
     expect(page.get_by_role("dialog")).to_contain_text("1 open query will be cancelled")
     page.keyboard.press("Escape")

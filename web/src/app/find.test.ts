@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest';
 import type { Me, Run } from '../api/types';
 import { bindingsFor } from '../keys/registry';
-import { commandsOf, matching, placesOf, viewsOf } from './find';
+import { commandsOf, matching, partsOf, placesOf, viewsOf } from './find';
 
 const me = (role: Me['role']) => ({ name: 'ada', role }) as Me;
 const run = (name: string, state: Run['state']) => ({ id: 'a b', name, state }) as Run;
@@ -18,6 +18,21 @@ it('offers the questions of a run only while they can be answered', () => {
     { address: '/work?run=a%20b' },
   ]);
   expect(placesOf(run('maze', 'finished'))).toMatchObject([{ address: '/runs/a%20b' }]);
+});
+
+it('offers the parts of the run on the screen to those who may open them', () => {
+  const there = { view: 'query', run: 'a b', query: 3 } as const;
+  const addresses = (role: Me['role']) =>
+    partsOf(there, me(role)).map((one) => 'address' in one && one.address);
+  expect(addresses('viewer')).toEqual([
+    '/runs/a%20b',
+    '/runs/a%20b/queries',
+    '/runs/a%20b/ledger',
+    '/runs/compare?run=a%20b',
+  ]);
+  expect(addresses('admin')).toEqual(expect.arrayContaining(['/runs/a%20b/review', '/runs/a%20b/gold']));
+  expect(addresses('annotator')).toEqual([]);
+  expect(partsOf({ view: 'runs' }, me('admin'))).toEqual([]);
 });
 
 it('offers every command of the view with its key, but not itself', () => {

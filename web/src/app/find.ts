@@ -3,6 +3,7 @@ import { nameOfRunState } from '../api/states';
 import type { Me, Run } from '../api/types';
 import type { Binding, Command } from '../keys/registry';
 import { t } from '../language/language';
+import type { Route } from '../router/route';
 
 /** A line of the dialog. It opens an address, or does what a key of the view does. */
 export type Entry = {
@@ -54,6 +55,25 @@ export function placesOf(run: Run): Entry[] {
       address: `/work?run=${id}`,
     });
   return places;
+}
+
+/** Return the other parts of the run that is on the screen. */
+export function partsOf(route: Route, me: Me): Entry[] {
+  if (!('run' in route) || route.run === null || route.view === 'work' || me.role === 'annotator') return [];
+  const address = `/runs/${encodeURIComponent(route.run)}`;
+  const parts = [
+    [t('Overview of this run'), t('success, costs and queries'), address],
+    [t('Queries of this run'), t('search and filter'), `${address}/queries`],
+    [t('Ledger of this run'), t('each cost'), `${address}/ledger`],
+    ...(me.role === 'viewer'
+      ? []
+      : [
+          [t('Review of this run'), t('answers, comments'), `${address}/review`],
+          [t('Gold queries of this run'), t('with known answers'), `${address}/gold`],
+        ]),
+    [t('Compare this run with others'), t('overlay'), `/runs/compare?run=${encodeURIComponent(route.run)}`],
+  ] as const;
+  return parts.map(([words, hint, to]) => ({ group: 'views', words, hint, address: to }));
 }
 
 /** Return the commands of the view on the screen. */

@@ -29,6 +29,9 @@ test('one of each kind that is asked is practiced, and none that is a worked exa
   const run = { domain: 'maze', doing: 'asking', kinds: ['label_hi', 'hier_demo'] };
   expect(ids(firstQueries(practice, outlook(run)))).toEqual([2]);
   expect(ids(firstQueries(practice, outlook({ ...run, kinds: [] })))).toEqual([0, 2, 4]);
+  expect(ids(firstQueries(practice, outlook({ ...run, kinds: ['hier_demo', 'inspect_full'] })))).toEqual([
+    0, 2, 4,
+  ]);
   expect(ids(firstQueries(practice, outlook()))).toEqual([0, 2, 4]);
 });
 

@@ -25,18 +25,21 @@ export function domainToPractice({ domains }: Practice, outlook: Outlook): strin
 }
 
 /**
- * Return the practice queries for somebody new: one of each kind that the learners of this domain ask. It is empty if
- * the learners of this server are of other domains only: the practice would teach nothing of use.
+ * Return the practice queries for somebody new: one of each kind that the learners of this domain ask or, at the
+ * beginning of a run, may ask. It is empty if the learners of this server are of other domains only: the practice would
+ * teach nothing of use.
  */
 export function firstQueries(practice: Practice, outlook: Outlook): Practice['queries'] {
   const live = outlook.runs.filter((run) => run.doing !== 'finished');
   const ours = live.filter((run) => run.domain === practice.vocabulary.domain);
   if (live.length > 0 && ours.length === 0) return [];
   const asked = new Set(ours.flatMap((run) => run.kinds));
+  // Labels are asked after inspections and demonstrations: only from them on is it known which kinds a run asks.
+  const isKnown = [...asked].some((kind) => kind.startsWith('label'));
   const worked = new Set(practice.examples.map((example) => example.query));
   const seen = new Set<string>();
   return practice.queries.filter(({ id, ask: { kind } }) => {
-    if (worked.has(id) || seen.has(kind) || (asked.size > 0 && !asked.has(kind))) return false;
+    if (worked.has(id) || seen.has(kind) || (isKnown && !asked.has(kind))) return false;
     seen.add(kind);
     return true;
   });
