@@ -241,7 +241,7 @@ def test_where_a_segment_failed_the_expert_plays_on_and_what_it_shows_is_learned
     assert rows.keys() == {META, pi(3)}
     assert [(row.choice, row.termination) for row in rows[pi(3)]] == [(1, -1), (1, 0), (1, 0), (-1, 1)]
     assert sorted(row.choice for row in rows[META]) == [0, 1, 2, 3]
-    assert labels.passed == [sigma[0]]
+    assert labels.passed == [(sigma[0], True)]
 
 
 def test_where_the_episode_ended_with_the_failed_segment_the_segment_is_labeled() -> None:

@@ -106,7 +106,9 @@ def test_a_preset_decides_whether_demonstrations_are_learned_from_as_those_of_ot
     there, back = [(down, UNLABELED), (UNLABELED, 1)], [(maze.actions.index("up"), UNLABELED), (UNLABELED, 1)]
     learned_from = learner.data[pi(go_to_target)]
     _, labels_of_rows = learned_from[range(len(learned_from))]
-    assert [tuple(row) for row in labels_of_rows.tolist()] == (there + there + back if relabeling else there)
+    assert [(choice, ends) for choice, ends, _ in labels_of_rows.tolist()] == (
+        there + there + back if relabeling else there
+    )
 
 
 def test_what_acts_is_the_average_of_what_was_learned() -> None:

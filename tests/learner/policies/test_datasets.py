@@ -27,7 +27,7 @@ def test_a_buffer_keeps_every_row_in_order() -> None:
     assert len(data) == 855
     observations, labels = data[range(855)]
     assert observations[:, 1].tolist() == list(range(855))
-    assert labels.tolist() == [[number % 5, number % 2] for number in range(855)]
+    assert labels.tolist() == [[number % 5, number % 2, True] for number in range(855)]
 
 
 def test_rows_are_given_as_they_are_asked_for() -> None:
@@ -35,7 +35,7 @@ def test_rows_are_given_as_they_are_asked_for() -> None:
     data.append(rows(9))
     observations, labels = data[[7, 2, 7]]
     assert observations.tolist() == [[7, 7], [2, 2], [7, 7]]
-    assert labels.tolist() == [[2, 1], [2, 0], [2, 1]]
+    assert labels.tolist() == [[2, 1, True], [2, 0, True], [2, 1, True]]
 
 
 @examples
@@ -74,9 +74,9 @@ def test_a_buffer_survives_the_way_through_tensors_and_goes_on_growing() -> None
 def test_an_empty_buffer_survives_the_way_through_tensors() -> None:
     again = in_tensors(Dataset((3, 4, 4)), (3, 4, 4))
     observations, labels = again[range(0)]
-    assert (len(again), observations.shape, labels.shape) == (0, (0, 3, 4, 4), (0, 2))
+    assert (len(again), observations.shape, labels.shape) == (0, (0, 3, 4, 4), (0, 3))
     again.append([Row(np.ones((3, 4, 4), np.float32), 1)])
-    assert again[[0]][1].tolist() == [[1, UNLABELED]]
+    assert again[[0]][1].tolist() == [[1, UNLABELED, True]]
 
 
 def test_a_row_is_kept_as_it_was_when_the_observation_changes_later() -> None:
