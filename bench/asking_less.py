@@ -47,14 +47,11 @@ def written(path: Path) -> Iterator[Row]:
     """Yield the runs that `write` wrote."""
     with path.open(newline="") as file:
         for (name, seed), some in groupby(csv.DictReader(file), key=lambda row: (row["run"], int(row["seed"]))):
-            yield (
-                name,
-                seed,
-                {
-                    float(row["success"]): (float(row["units"]), float(row["keys"]), float(row["minutes"]))
-                    for row in some
-                },
-            )
+            costs: Costs = {}
+            for row in some:
+                units, keys, minutes = (float(row[what]) for what in ("units", "keys", "minutes"))
+                costs[float(row["success"])] = units, keys, minutes
+            yield name, seed, costs
 
 
 def write(path: Path, rows: Iterable[Row]) -> None:

@@ -37,6 +37,8 @@ export interface Tape {
 export interface Playable {
   readonly tape: Tape;
   readonly player: Player;
+  readonly pace: number; // milliseconds per frame while it plays
+  tick(frames: number): void;
   seek(frame: number): void;
 }
 
