@@ -23,7 +23,7 @@ from waypost.domains import Domain, find_domain, place_of
 from waypost_learner.commands import checkpoint_folder
 from waypost_learner.experiments.figures import look
 from waypost_learner.experiments.figures.statistics import Track, spread
-from waypost_learner.experiments.plan import Series
+from waypost_learner.experiments.plan.series import Series
 from waypost_learner.remote.embedded import stored_runs
 from waypost_learner.rollout.simulator import Simulator
 from waypost_learner.runs import checkpoints

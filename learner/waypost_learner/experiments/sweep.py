@@ -16,6 +16,7 @@ from typing import Any
 import joblib
 
 from waypost import wire
+from waypost_learner.experiments.plan import name_of
 from waypost_learner.remote.connection import Connection, connected
 from waypost_learner.remote.embedded import embedded
 from waypost_learner.runs.config import TrainConfig, config_values, settings_of
@@ -86,13 +87,6 @@ def finished(runs: Sequence[TrainConfig], connection: Connection) -> set[TrainCo
     """Return the finished runs among `runs`."""
     done = [settings_of(run.config) for run in connection.learner.runs() if run.state == "finished"]
     return {config for config in runs if config_values(config) in done}
-
-
-def name_of(config: TrainConfig) -> str:
-    """Return a readable name of a run for lists of errors."""
-    rest = {"redraw": "redrawn", "head_start": "head start"}
-    extras = [word for field, word in rest.items() if getattr(config, field)]
-    return ", ".join([f"{config.algorithm} {config.instances} seed {config.seed}", *extras])
 
 
 def _train(config: TrainConfig, place: Place) -> str | None:

@@ -46,8 +46,11 @@ class Measuring:
 
     def after(self, episode: int) -> None:
         """Measure the policies after an episode, if it is one to measure after and their weights have changed."""
-        if (episode + 1) % self._every:
-            return
+        if (episode + 1) % self._every == 0:
+            self.now(episode)
+
+    def now(self, episode: int) -> None:
+        """Measure the policies if their weights have changed; at the end, `episode` is the number of all episodes."""
         weights = weights_hash(self._learner)
         if weights == self._weights:
             return

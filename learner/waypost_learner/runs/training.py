@@ -104,7 +104,7 @@ def train(
         ended, progress = _drive(setup, _queue(connection, run.id), hooks, first)
         learner.train_idle()  # the training that would follow the next query
         if measuring is not None:
-            measuring.after(progress.episodes)
+            measuring.now(progress.episodes)
         save(progress, weights_only=True)
         summary = finish(setup, connection.learner, run.id, ended, time.monotonic() - began)
         tracker.finish(summary)

@@ -5,7 +5,9 @@ import pytest
 from hypothesis import given, settings
 from tests.learner.kit import Cell, Maze, mazes, reachable_cells
 
+from waypost_learner.domains.maze.as_authors import AsAuthorsMazeDomain
 from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.domains.maze.lasting_lava import LastingLavaMazeDomain
 from waypost_learner.domains.maze.maze import ACTIONS, GO_TO_TARGET, SUBGOALS, moved, wall_beside
 from waypost_learner.domains.maze.oracle import MazeOracle
 from waypost_learner.domains.maze.slips import SlipExpertMazeDomain, SlipOracle
@@ -65,3 +67,21 @@ def test_where_no_way_leads_to_the_subgoal_no_action_is_right() -> None:
         assert [bool(good) for good in by_subgoal] == [
             any(not maze.lava[cell] for cell in wall_beside(maze.start, subgoal)) for subgoal in range(4)
         ] + [False]
+
+
+def test_with_both_departures_the_expert_leaves_lava_and_else_acts_as_the_one_that_plans_for_slips() -> None:
+    both, careful, lasting = AsAuthorsMazeDomain().oracle, SlipOracle(), LastingLavaMazeDomain().oracle
+    for maze in MazeDomain().instances("corners").test[:3]:
+        view, cells = maze.to_json(), reachable_cells(maze)
+        for cell in cells:
+            assert both.good_subgoals(view, cell) == careful.good_subgoals(view, cell)
+            for subgoal in both.good_subgoals(view, cell):
+                good = both.good_actions(view, cell, cell, subgoal)
+                assert good == careful.good_actions(view, cell, cell, subgoal)
+        burnt = next(cell for cell in (moved(maze.start, action) for action in range(4)) if maze.lava[cell])
+        there = [*burnt, [list(maze.start)]]
+        [subgoal, *_] = both.good_subgoals(view, there)
+        out = both.good_actions(view, maze.start, there, subgoal)
+        assert [moved(burnt, action) for action in out] == [maze.start]
+        assert out == lasting.good_actions(view, maze.start, there, subgoal)
+        assert careful.good_actions(view, maze.start, burnt, subgoal) == []

@@ -34,6 +34,7 @@ from waypost_learner.experiments.figures.data import KINDS, Comparison, RunCurve
 from waypost_learner.experiments.figures.published import NEVER
 from waypost_learner.experiments.figures.statistics import Spread
 from waypost_learner.experiments.figures.store import read
+from waypost_learner.experiments.plan.series import Group, Series
 from waypost_learner.remote.embedded import stored_runs
 from waypost_learner.runs.config import TrainConfig
 from waypost_learner.runs.training import train
@@ -43,14 +44,14 @@ from waypost_server.settings import Settings
 from waypost_server.users import service as users
 
 EPISODES = 6
-TINY = plan.Group(
+TINY = Group(
     "tiny",
     "corridors, to try the figures",
     "Episodes: every rollout.",
     ("success-by-episode", "success-by-cost", "success-by-lo-cost", "cost-by-kind", "lo-cost-by-episode"),
     (
-        plan.Series(corridor(episodes=EPISODES), "hg-DAgger"),
-        plan.Series(corridor(algorithm="h-bc", episodes=EPISODES), "h-BC"),
+        Series(corridor(episodes=EPISODES), "hg-DAgger"),
+        Series(corridor(algorithm="h-bc", episodes=EPISODES), "h-BC"),
     ),
 )
 TWO_SEEDS = ("--figure", "tiny", "--seeds", "1,2")
@@ -313,7 +314,7 @@ def test_missing_runs_are_listed_with_how_far_they_are_and_the_command_that_make
     trained: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     longer = replace(TINY.series[1].config, episodes=20)
-    monkeypatch.setitem(plan.GROUPS, "tiny", replace(TINY, series=(TINY.series[0], plan.Series(longer, "h-BC"))))
+    monkeypatch.setitem(plan.GROUPS, "tiny", replace(TINY, series=(TINY.series[0], Series(longer, "h-BC"))))
     shutil.copy(trained, "waypost.db")
     with store(Path.cwd()) as (connection, _):
         begin(connection.learner, replace(longer, seed=3), episodes=7)
@@ -321,9 +322,9 @@ def test_missing_runs_are_listed_with_how_far_they_are_and_the_command_that_make
     said = refused(*arguments).splitlines()
     assert said == [
         "These runs are missing:",
-        "  h-bc, random, tiny, seed 1, not started",
-        "  hg-dagger, random, tiny, seed 3, not started",
-        "  h-bc, random, tiny, seed 3, 7 of 20 episodes",
+        "  h-bc, corridor, random, tiny, seed 1, not started",
+        "  hg-dagger, corridor, random, tiny, seed 3, not started",
+        "  h-bc, corridor, random, tiny, seed 3, 7 of 20 episodes",
         "This command trains them:",
         "  waypost sweep --figure tiny --seeds 1,3 --store waypost.db",
         "Use --partial to draw without them.",
@@ -372,7 +373,7 @@ def test_a_store_of_a_newer_version_is_refused(trained: Path) -> None:
         (("--server", "http://127.0.0.1:9"), "WAYPOST_TOKEN"),
         (("--from", ".", "--seeds", "1,one"), "'1,one'"),
         (("--from", ".", "--seeds", "1,1"), "different numbers"),
-        (("--from", ".", "--figure", "atari"), "the figures are: maze, lean, montezuma"),
+        (("--from", ".", "--figure", "atari"), "the figures are: maze, options, lean, montezuma"),
     ],
 )
 def test_what_is_wrong_is_said_in_one_sentence(arguments: tuple[str, ...], said: str) -> None:
@@ -408,6 +409,6 @@ def test_the_report_holds_tables_and_figures_and_the_commands_that_make_them(tra
 
 
 @pytest.mark.parametrize("group", [group for group in plan.GROUPS.values() if group.figures], ids=lambda one: one.name)
-def test_no_two_curves_of_a_figure_look_alike(group: plan.Group) -> None:
+def test_no_two_curves_of_a_figure_look_alike(group: Group) -> None:
     styles = [look.style_of(series) for series in group.series]
     assert len(set(styles)) == len(styles)

@@ -16,6 +16,7 @@ from waypost_learner.experiments.figures import draw, look, measures, tables
 from waypost_learner.experiments.figures.data import KINDS, Comparison, RunCurves
 from waypost_learner.experiments.figures.published import published
 from waypost_learner.experiments.figures.statistics import Track, band, first_at, spread
+from waypost_learner.experiments.plan.series import Series
 from waypost_server.runs.curves import first_at as server_first_at
 
 # --- medians, ranges, and first times
@@ -116,7 +117,8 @@ def test_counted_as_the_authors_count_inspections_cost_nothing() -> None:
     with_inspections = honest[("hg-DAgger", "total expert cost")].ours
     assert with_inspections is not None
     assert with_inspections.median == 6 * 1_000
-    assert [name for name, group in plan.GROUPS.items() if group.labels_only] == ["published", "naive"]
+    options = ["options-hg-dagger", "options-flat-dagger", "options-flat-bc"]
+    assert [name for name, group in plan.GROUPS.items() if group.labels_only] == ["published", "naive", *options]
 
 
 def test_published_numbers_stand_beside_those_counted_alike_and_nowhere_else() -> None:
@@ -128,6 +130,19 @@ def test_published_numbers_stand_beside_those_counted_alike_and_nowhere_else() -
     assert beside[("", "expert cost, hg-DAgger / flat DAgger")].published == pytest.approx(0.35)
     elsewhere = results_of(Comparison(plan.GROUPS["corners"], comparison.runs))
     assert {result.published for result in elsewhere.values()} == {None}
+
+
+def test_of_several_variants_of_an_algorithm_the_first_stands_beside_the_published_numbers() -> None:
+    costs = {
+        name: [published(plan.GROUPS[name], series).cost for series in plan.GROUPS[name].series]
+        for name in ("options-hg-dagger", "options-flat-bc")
+    }
+    assert costs == {"options-hg-dagger": [21_000] + [None] * 5, "options-flat-bc": [44_000] + [None] * 3}
+
+
+def test_no_two_runs_of_the_plan_have_the_same_name() -> None:
+    names = [plan.name_of(run) for run in plan.runs_of(list(plan.GROUPS.values()), (0, 1))]
+    assert len(set(names)) == len(names)
 
 
 def test_a_level_that_was_not_reached_is_never_in_a_whole_run_and_unknown_in_an_unfinished_one() -> None:
@@ -166,7 +181,7 @@ def test_ratios_are_of_runs_of_one_seed() -> None:
     group = plan.GROUPS["naive"]
     guided, naive = group.series
 
-    def runs(series: plan.Series, spent: dict[int, float]) -> list[RunCurves]:
+    def runs(series: Series, spent: dict[int, float]) -> list[RunCurves]:
         config = replace(series.config, episodes=2)
         return [run_of(replace(config, seed=seed), [True] * 2, label_lo=[1, units]) for seed, units in spent.items()]
 
@@ -244,7 +259,7 @@ def test_no_published_number_is_on_a_figure_that_is_counted_otherwise() -> None:
 
 
 def test_every_figure_of_the_plan_can_be_drawn_and_its_series_told_apart() -> None:
-    for group in (plan.GROUPS[name] for name in plan.FIGURES["maze"]):
+    for group in (plan.GROUPS[name] for name in plan.FIGURES["maze"] if plan.GROUPS[name].figures):
         styles = [look.style_of(series) for series in group.series]
         assert len({style.color for style in styles}) == len({str(style.line) for style in styles}) == len(styles)
         runs = {series: [run_of(replace(series.config, episodes=5), [True] * 5)] for series in group.series}

@@ -21,7 +21,7 @@ from waypost_learner.cli import app
 from waypost_learner.experiments import plan
 from waypost_learner.experiments.figures import archive
 from waypost_learner.experiments.figures.data import KINDS, RunCurves
-from waypost_learner.experiments.sweep import Place, Progress, name_of, sweep
+from waypost_learner.experiments.sweep import Place, Progress, sweep
 from waypost_learner.remote.embedded import embedded
 from waypost_learner.runs.config import TrainConfig
 from waypost_server import serving
@@ -138,8 +138,8 @@ def episodes_in(store: Path) -> int:
 def test_what_goes_wrong_in_one_run_is_told_and_the_others_go_on(tmp_path: Path) -> None:
     wrong = corridor(instances="no-such-instances")
     troubles = sweep([wrong, RUNS[0]], place(tmp_path), jobs=1, backend="sequential")
-    assert list(troubles) == [name_of(wrong)]
-    assert "no-such-instances" in troubles[name_of(wrong)]
+    assert list(troubles) == [plan.name_of(wrong)]
+    assert "no-such-instances" in troubles[plan.name_of(wrong)]
     assert [run[0] for run in contents(tmp_path / "waypost.db").values()] == ["finished"]
 
 
@@ -174,7 +174,7 @@ def test_a_sweep_can_write_to_a_server(tmp_path: Path, token: tuple[str, str]) -
 def test_the_command_refuses_a_figure_that_does_not_exist(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["sweep", "--figure", "mazes", "--store", str(tmp_path / "a.db")])
     assert done.exit_code == 2
-    assert "the figures are: maze, lean, montezuma" in done.output
+    assert "the figures are: maze, options, lean, montezuma" in done.output
     assert list(tmp_path.iterdir()) == []
 
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from waypost import wire
 from waypost.wire import Kind
-from waypost_learner.experiments.plan import Group, Series
+from waypost_learner.experiments.plan.series import Group, Series
 from waypost_learner.runs.config import TrainConfig
 
 Column = NDArray[np.float64]

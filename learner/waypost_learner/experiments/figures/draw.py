@@ -15,7 +15,7 @@ from waypost_learner.experiments.figures.data import KINDS, Column, Comparison, 
 from waypost_learner.experiments.figures.look import count_axis, curve, frame, legend, percent_axis, point
 from waypost_learner.experiments.figures.published import NEVER, SUBGOALS, Published, author_logs, published
 from waypost_learner.experiments.figures.statistics import Track
-from waypost_learner.experiments.plan import Series
+from waypost_learner.experiments.plan.series import Series
 
 Value = Callable[[RunCurves], Column]
 Points = Callable[[Published], Iterator[tuple[float, float]]]

@@ -14,7 +14,7 @@ from matplotlib.ticker import FuncFormatter, StrMethodFormatter
 from waypost.wire import Kind
 from waypost_learner.experiments.figures.data import Comparison
 from waypost_learner.experiments.figures.statistics import Track, band
-from waypost_learner.experiments.plan import Series
+from waypost_learner.experiments.plan.series import Series
 
 RC: dict[Any, Any] = {
     "font.family": "DejaVu Sans",  # part of matplotlib, so figures are identical on every machine

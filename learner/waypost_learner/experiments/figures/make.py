@@ -9,6 +9,7 @@ from typing import Any
 from waypost_learner.experiments import plan
 from waypost_learner.experiments.figures import archive, draw, report, tables
 from waypost_learner.experiments.figures.data import Comparison, RunCurves
+from waypost_learner.experiments.plan.series import Group
 from waypost_learner.runs.config import TrainConfig
 
 Found = Mapping[TrainConfig, RunCurves]
@@ -35,7 +36,7 @@ class Request:
     archives: tuple[Path, ...] = ()
 
     @property
-    def groups(self) -> list[plan.Group]:
+    def groups(self) -> list[Group]:
         """The groups to draw.
 
         Raises:
@@ -65,20 +66,10 @@ def missing(request: Request, found: Found) -> list[TrainConfig]:
 
 
 def describe(config: TrainConfig, found: Found) -> str:
-    """Return a text that identifies a missing run within the plan, with its number of finished episodes."""
+    """Return the name of a missing run, with its number of finished episodes."""
     run = found.get(config)
-    return ", ".join(
-        [
-            config.algorithm,
-            config.instances,
-            *(["redraw"] if config.redraw else []),
-            *([] if config.head_start is None else [f"head start {config.head_start:.0%}"]),
-            *([] if config.preset == "paper" else [config.preset]),
-            *([] if config.values is None else [config.values]),
-            f"seed {config.seed}",
-            "not started" if run is None else f"{len(run.episode)} of {config.episodes} episodes",
-        ]
-    )
+    how_far = "not started" if run is None else f"{len(run.episode)} of {config.episodes} episodes"
+    return f"{plan.name_of(config)}, {how_far}"
 
 
 def missing_command(request: Request, runs: Sequence[TrainConfig]) -> str:

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from waypost_learner.experiments.figures.data import Column
-from waypost_learner.experiments.plan import Group, Series
+from waypost_learner.experiments.plan.series import Group, Series
 
 NEVER = float("inf")
 SUBGOALS = ("stair", "key", "stair_back", "door")  # of Montezuma's Revenge
@@ -111,12 +111,18 @@ def _montezuma() -> Published:
 
 
 def published(group: Group, series: Series) -> Published:
-    """Return the published numbers of a series; empty ones if its group counts differently from the authors."""
-    algorithm = series.config.algorithm
+    """Return the published numbers of a series; empty ones if its group counts differently from the authors.
+
+    Of several variants of an algorithm, the first has the numbers.
+    """
+    algorithm, head_start = series.config.algorithm, series.config.head_start
+    variants = [one for one in group.series if (one.config.algorithm, one.config.head_start) == (algorithm, head_start)]
+    if series not in variants[:1]:
+        return Published()
     if series.config.domain == "montezuma":
         return _montezuma() if algorithm == "hg-dagger-q" else Published()
     if group.labels_only:
         return _IMITATION.get(algorithm, Published())
     if group.hybrid and algorithm == "h-dqn":
-        return _H_DQN if series.config.head_start is None else _H_DQN_WITH_HEAD_START
+        return _H_DQN if head_start is None else _H_DQN_WITH_HEAD_START
     return Published()
