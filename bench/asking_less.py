@@ -16,7 +16,7 @@ from itertools import groupby
 from pathlib import Path
 
 from bench.levels import GOALS, cell, runs_of
-from bench.person import answered, effort, minutes_of
+from bench.person import answered, work_of
 
 from waypost_learner.remote.embedded import embedded
 
@@ -36,8 +36,8 @@ def costs_of(store: Path) -> list[Row]:
             costs: Costs = {}
             for goal in GOALS:
                 episode, units = run.first_at(goal)
-                until = [query for query in queries if query.ask.episode <= episode]
-                work = sum(effort(query)[0] for query in until), sum(map(minutes_of, until))
+                until = [work_of(query) for query in queries if query.ask.episode <= episode]
+                work = sum(keys for keys, _, _ in until), sum(minutes for _, _, minutes in until)
                 costs[goal] = (units, *work) if math.isfinite(units) else (math.inf,) * 3
             found.append((run.name, run.seed, costs))
     return found

@@ -24,10 +24,9 @@ SECONDS: dict[wire.Kind, float] = {  # seconds per decision
 }
 
 
-def effort(query: wire.Query) -> tuple[int, int]:
+def effort(ask: wire.Ask, answer: wire.Answer) -> tuple[int, int]:
     """Return the number of keys and the number of decisions of an answer."""
-    answer = query.answer
-    segments = [] if query.ask.kind == "hier_demo" else query.ask.segments
+    segments = [] if ask.kind == "hier_demo" else ask.segments
     match answer:
         case wire.InspectAnswer():
             return 1, 1
@@ -44,13 +43,18 @@ def effort(query: wire.Query) -> tuple[int, int]:
         case wire.HierDemoAnswer():
             n = sum(len(segment.actions) for segment in answer.segments)
             return n + 2 * len(answer.segments) + 1, n + 2 * len(answer.segments)
-    raise ValueError(f"query {query.id} has no answer")
 
 
-def minutes_of(query: wire.Query) -> float:
-    """Return the minutes that an answer takes: the time to watch, and a time per decision."""
-    watching = 0 if query.ask.kind == "hier_demo" else WATCHING
-    return (watching + effort(query)[1] * SECONDS[query.ask.kind]) / 60
+def seconds_of(ask: wire.Ask, answer: wire.Answer) -> float:
+    """Return the seconds that an answer takes: the time to watch, and a time per decision."""
+    watching = 0 if ask.kind == "hier_demo" else WATCHING
+    return watching + effort(ask, answer)[1] * SECONDS[ask.kind]
+
+
+def work_of(query: wire.Query) -> tuple[int, int, float]:
+    """Return the keys, the decisions and the minutes of an answered query."""
+    assert query.answer is not None
+    return *effort(query.ask, query.answer), seconds_of(query.ask, query.answer) / 60
 
 
 def _last_change(own: list[str] | list[str | None], labels: list[str] | list[str | None]) -> int:
@@ -85,10 +89,10 @@ def main() -> None:
     keys, decisions = Counter[str](), Counter[str]()
     minutes: defaultdict[str, float] = defaultdict(float)
     for query in queries:
-        n_keys, n_decisions = effort(query)
+        n_keys, n_decisions, n_minutes = work_of(query)
         keys[query.ask.kind] += n_keys
         decisions[query.ask.kind] += n_decisions
-        minutes[query.ask.kind] += minutes_of(query)
+        minutes[query.ask.kind] += n_minutes
     asked = Counter(query.ask.kind for query in queries)
     level = f"{float(arguments.success):.0%}"
     print(f"Success reached {level} in episode {milestone.episode}, after {milestone.cost:,.0f} units.\n")

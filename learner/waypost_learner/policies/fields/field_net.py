@@ -146,7 +146,7 @@ class FieldNet(nn.Module):
         """
         spec, agent, reach = self.spec, self.finder.find(x), int(self.reach)
         # All that fields are made of is float64: a gradient on the way back to it can be far beyond float32.
-        gates = torch.sigmoid(-_SHARP_GATES * self.gates(x).double())
+        gates = self.passed(x)
         source = torch.softmax(_SHARP_SOURCE * self.source(x).double().flatten(1), 1).view_as(gates)
         task = self._spread(gates, source, spec.far)
         patch, near_gates, near_task = (_around(one, agent, reach) for one in (x, gates, task))
@@ -161,6 +161,10 @@ class FieldNet(nn.Module):
             "termination": self.termination(_around(x, agent, spec.ending)),
             "flat": self._climb(_around(task, agent, 1)).squeeze(1),
         }
+
+    def passed(self, x: torch.Tensor) -> torch.Tensor:
+        """Return how easily each pixel is passed, float64[B, 1, rows, columns] between 0 and 1."""
+        return torch.sigmoid(-_SHARP_GATES * self.gates(x).double())
 
     def _ends(self, patch: torch.Tensor) -> torch.Tensor:
         """Return the logits of each subgoal's ends float32[B, subgoals, side, side] around the agent."""

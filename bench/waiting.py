@@ -1,0 +1,80 @@
+"""Measures how long a person waits for the next question while a learner trains.
+
+    PYTHONPATH=. python bench/waiting.py [--episodes 60] [--preset general --told crop --warm-start 1]
+
+A server, `waypost train --expert queue` with two threads, and a program that answers with the oracle run on this
+machine. The program takes as long for an answer as `bench/person.py` estimates for a person. A wait is the time from an
+answer to the next question. The script prints the waits within and between episodes, and asserts nothing.
+"""
+
+import argparse
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from bench.assignments import machine, serving
+from bench.person import seconds_of
+
+from waypost import wire
+from waypost.client import Client
+from waypost.domains import find_domain
+from waypost_learner.experts.oracle import OracleExpert
+
+STARTED = 60.0  # seconds until the first question at the latest
+LONGEST = 120.0  # seconds; a longer wait means that the run is over
+
+
+def waits(person: Client) -> Iterator[tuple[bool, float]]:
+    """Answer as a person would; yield each wait in seconds, and whether a new episode began."""
+    expert, lease = OracleExpert(find_domain("maze")), wire.Lease(wait=LONGEST)
+    held, episode = person.lease(wire.Lease(wait=STARTED)), 0
+    while held is not None:
+        answer = expert(held.query.ask)
+        time.sleep(seconds_of(held.query.ask, answer))
+        person.answer(held, answer)
+        began = time.perf_counter()
+        held = person.lease(lease)
+        if held is not None:
+            yield held.query.ask.episode != episode, time.perf_counter() - began
+            episode = held.query.ask.episode
+
+
+def row(name: str, times: list[float]) -> str:
+    """Return a row of the table."""
+    times = sorted(times)
+    late = times[min(int(0.95 * len(times)), len(times) - 1)]
+    return f"| {name} | {len(times)} | {statistics.median(times):.2f} | {late:.2f} | {times[-1]:.2f} |"
+
+
+def main() -> None:
+    """Train, answer, and print the table."""
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("--episodes", default="60")
+    arguments.add_argument("--preset", default="general")
+    arguments.add_argument("--told", default="crop")
+    arguments.add_argument("--warm-start", default="1")
+    given = arguments.parse_args()
+    options = [f"--{name.replace('_', '-')}={value}" for name, value in vars(given).items()]
+    with TemporaryDirectory() as folder, serving(f"sqlite:///{folder}/waiting.db") as (url, _, learner, annotators):
+        token, answering = (one["Authorization"].split()[1] for one in (learner, annotators[0]))
+        command = [sys.executable, "-m", "waypost_learner.cli", "train", "hg-dagger", *options, "--threads=2"]
+        command += ["--expert=queue", f"--server={url}", f"--token={token}"]
+        with (
+            subprocess.Popen(command, stdout=subprocess.DEVNULL, cwd=Path(folder)) as training,
+            closing(Client(url, answering)) as person,
+        ):
+            found = list(waits(person))
+            training.terminate()
+    print(machine())
+    print(f"{' '.join(options)}\n\n| waits, seconds | number | median | p95 | longest |\n|---|---|---|---|---|")
+    print(row("between episodes", [wait for first, wait in found if first]))
+    print(row("within an episode", [wait for first, wait in found if not first]))
+
+
+if __name__ == "__main__":
+    main()
