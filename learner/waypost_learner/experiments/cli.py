@@ -42,7 +42,9 @@ def figures(
     archives: Annotated[
         list[Path] | None, typer.Option("--from", help="A folder that contains runs.csv.gz; can be repeated.")
     ] = None,
-    figure: Annotated[str, typer.Option(help="A figure (maze, lean or montezuma), or one group of it.")] = "maze",
+    figure: Annotated[
+        str, typer.Option(help="A figure (maze, options, lean or montezuma), or one group of it.")
+    ] = "maze",
     seeds: SeedsOption = "0,1,2,3,4",
     out: Annotated[Path, typer.Option(help="The folder for figures and tables.")] = Path("docs/results"),
     report: Annotated[Path | None, typer.Option(help="Write a Markdown document with all figures and tables.")] = None,
@@ -75,7 +77,7 @@ def figures(
         found = make.merge(sources)
         missing = make.missing(request, found)
         if missing and not partial:
-            _refuse_missing([make.describe(one, found) for one in missing], make.missing_command(request, missing))
+            _refuse_missing(make.describe(missing, found), make.missing_command(request, missing))
         with Console(stderr=True).status("Drawing."):
             done = make.make(request, found)
     typer.echo(json.dumps(done) if as_json else "\n".join(done["files"]))
@@ -83,7 +85,9 @@ def figures(
 
 @app.command()
 def sweep(
-    figure: Annotated[str, typer.Option(help="A figure (maze, lean or montezuma), or one group of it.")] = "maze",
+    figure: Annotated[
+        str, typer.Option(help="A figure (maze, options, lean or montezuma), or one group of it.")
+    ] = "maze",
     seeds: SeedsOption = "0,1,2,3,4",
     store: Annotated[
         Path | None, typer.Option("--store", help="An SQLite file; it is created if it does not exist.")

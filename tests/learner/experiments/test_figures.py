@@ -341,7 +341,9 @@ def test_missing_runs_are_listed_with_how_far_they_are_and_the_command_that_make
 
 
 def test_only_the_seeds_that_are_missing_are_made_again(trained: Path) -> None:
-    assert "--seeds 8,9 --store" in refused("--store", trained, "--figure", "tiny", "--seeds", "1,9,2,8")
+    said = refused("--store", trained, "--figure", "tiny", "--seeds", "1,9,2,8")
+    assert "--seeds 8,9 --store" in said
+    assert "  h-bc, corridor, random, tiny, seeds 9, 8, not started\n" in said
 
 
 def test_the_command_that_makes_what_is_missing_leaves_out_what_an_archive_has(trained: Path) -> None:

@@ -65,11 +65,17 @@ def missing(request: Request, found: Found) -> list[TrainConfig]:
     return [config for config in request.wanted if config not in found or not found[config].complete]
 
 
-def describe(config: TrainConfig, found: Found) -> str:
-    """Return the name of a missing run, with its number of finished episodes."""
-    run = found.get(config)
-    how_far = "not started" if run is None else f"{len(run.episode)} of {config.episodes} episodes"
-    return f"{plan.name_of(config)}, {how_far}"
+def describe(runs: Sequence[TrainConfig], found: Found) -> list[str]:
+    """Return the names of missing runs, with their numbers of finished episodes; seeds that are equally far as one."""
+    seeds: dict[tuple[str, str], list[int]] = {}
+    for config in runs:
+        run = found.get(config)
+        how_far = "not started" if run is None else f"{len(run.episode)} of {config.episodes} episodes"
+        seeds.setdefault((plan.name_without_seed(config), how_far), []).append(config.seed)
+    return [
+        f"{name}, seed{'s' * (len(some) > 1)} {', '.join(map(str, some))}, {how_far}"
+        for (name, how_far), some in seeds.items()
+    ]
 
 
 def missing_command(request: Request, runs: Sequence[TrainConfig]) -> str:
@@ -88,7 +94,7 @@ def make(request: Request, found: Found) -> dict[str, Any]:
     comparisons = [comparison for comparison in comparisons if comparison.runs]
     if not comparisons:
         raise ValueError("none of the runs exists, so there is nothing to draw")
-    lacking = [describe(config, found) for config in missing(request, found)]
+    lacking = describe(missing(request, found), found)
     try:
         files = _write(request, comparisons, found, lacking)
     except OSError as error:

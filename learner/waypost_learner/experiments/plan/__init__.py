@@ -45,6 +45,11 @@ def runs_of(groups: Sequence[Group], seeds: Sequence[int]) -> list[TrainConfig]:
 
 def name_of(config: TrainConfig) -> str:
     """Return a readable name of a run, which no other run of the plan has."""
+    return f"{name_without_seed(config)}, seed {config.seed}"
+
+
+def name_without_seed(config: TrainConfig) -> str:
+    """Return a readable name of a run and of its runs with other seeds."""
     return ", ".join(
         [
             config.algorithm,
@@ -55,6 +60,5 @@ def name_of(config: TrainConfig) -> str:
             *([] if config.preset == "paper" else [config.preset]),
             *([] if config.warm_start is None else [f"warm start {config.warm_start}"]),
             *([] if config.values is None else [config.values]),
-            f"seed {config.seed}",
         ]
     )
