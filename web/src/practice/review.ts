@@ -33,8 +33,9 @@ function ownLabel(ask: Answerable, place: number): string | null {
   if (ask.kind === 'inspect_full' || ask.kind === 'inspect_lo') return null;
   if (ask.kind === 'label_hi') return ask.segments[place]?.subgoal ?? null;
   const action = ask.segments.flatMap((segment) => segment.actions)[place];
-  if (action !== undefined || ask.kind === 'label_full') return action ?? null;
-  return ask.suggestion?.terminations.at(-1) ? '(done)' : '(not done)';
+  if (ask.kind === 'label_full' || action !== undefined) return action ?? null;
+  const { suggestion } = ask;
+  return suggestion && 'terminations' in suggestion && suggestion.terminations.at(-1) ? '(done)' : null;
 }
 
 /** Return a label in words; the end of a segment is a label too. */
