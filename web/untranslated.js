@@ -7,7 +7,14 @@ const KEY =
   /^(?:Arrow\w+|Alt|Backspace|Control|Dead|End|Enter|Escape|Home|Meta|Page\w+|Shift|Space|Tab|Unidentified)$/;
 const MARKS = new Set(['t', 'count']);
 /** Calls whose arguments are for the browser or for a comparison. */
-const OTHER_CALLS = new Set(['closest', 'matches', 'matchMedia', 'querySelector', 'querySelectorAll']);
+const OTHER_CALLS = new Set([
+  'closest',
+  'matches',
+  'matchMedia',
+  'MediaQuery',
+  'querySelector',
+  'querySelectorAll',
+]);
 /** Types, names of modules, and what a program error says. */
 const OTHER_NODES = new Set(['ImportDeclaration', 'ThrowStatement', 'TSLiteralType']);
 
@@ -16,7 +23,7 @@ function isFine(node) {
   for (let at = node; at; at = at.parent) {
     if (OTHER_NODES.has(at.type)) return true;
     if (at.type === 'BinaryExpression' && at.operator.endsWith('==')) return true;
-    if (at.type === 'CallExpression') {
+    if (at.type === 'CallExpression' || at.type === 'NewExpression') {
       const name = at.callee.name ?? at.callee.property?.name;
       if (MARKS.has(name) || OTHER_CALLS.has(name)) return true;
     }

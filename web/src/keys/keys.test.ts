@@ -4,6 +4,7 @@ import { initial, readable } from '../api/names';
 import type { Vocabulary } from '../api/types';
 import { keyOf, listen, match, printed, type KeyPress } from './keys';
 import { remapped } from './remap';
+import { numbered, tagOf } from './tags';
 import { bindingsFor, collisions, MODES, type Binding, type Mode } from './registry';
 
 const maze: Vocabulary = {
@@ -157,6 +158,26 @@ describe('the registry', () => {
 
   it('knows a subgoal by its letter', () => {
     expect(['north', 'go_to_target', 'to_stairs', ''].map(initial)).toEqual(['N', 'T', 'S', '']);
+  });
+});
+
+describe('the tag of a subgoal', () => {
+  const game = ['stair', 'key', 'stair_back', 'door'];
+
+  it('is the key that is printed on its button, which no other subgoal has', () => {
+    const vocabulary = { domain: 'game', renderer: 'none', subgoals: game, actions: ['up'] };
+    const keys = bindingsFor('hier_demo', vocabulary).slice(0, 4);
+    expect(game.map((subgoal) => tagOf(subgoal, game))).toEqual(['1', 'K', '3', '4']);
+    expect(keys.map((binding) => printed(binding.keys[0] ?? ''))).toEqual(['1', 'K', '3', '4']);
+  });
+
+  it('is its number where there are more subgoals than keys', () => {
+    const many = Array.from({ length: 12 }, (_, number) => `${number} room`);
+    expect(many.slice(-3).map((subgoal) => tagOf(subgoal, many))).toEqual(['0', '11', '12']);
+  });
+
+  it('is not read as a part of the number of its segment', () => {
+    expect([numbered(2, 'N'), numbered(2, '4')]).toEqual(['2N', '2·4']);
   });
 });
 

@@ -346,21 +346,36 @@ function choiceBindings(mode: Mode, vocabulary: Vocabulary): Binding[] {
   return isHierarchical ? [...chosen, ...moves] : moves;
 }
 
+/** Return the key that is printed on the button of a subgoal: its letter, else its digit; undefined if it has none. */
+export function keyOfSubgoal(index: number, subgoals: readonly string[]): string | undefined {
+  return lettersOf(subgoals)[index] ?? DIGITS[index];
+}
+
+/** Return the letter of each subgoal: its initial, if that is free and no other subgoal has it. */
+function lettersOf(subgoals: readonly string[]): (string | undefined)[] {
+  reserved ??= usedIn(OF_SUBGOALS);
+  const initials = subgoals.map((name) => initial(name).toLowerCase());
+  return initials.map((letter) => {
+    const unique = initials.indexOf(letter) === initials.lastIndexOf(letter);
+    return unique && /^[a-z]$/.test(letter) && !reserved?.has(letter) ? letter : undefined;
+  });
+}
+
+let reserved: ReadonlySet<string> | undefined; // computed once, because a picture draws many tags
+
+/** Return the keys in these modes that belong to no subgoal or action. */
+function usedIn(modes: readonly Mode[]): Set<string> {
+  return new Set(
+    [...modes.flatMap(answerBindings), undo(), ...commonBindings()].flatMap((binding) => binding.keys),
+  );
+}
+
 /**
  * Return the key of each subgoal and action: the same in every mode, so that a hand can learn it. A subgoal has its
- * initial, if that is free and no other subgoal has it. An action has the arrow of its direction, or a letter.
+ * letter. An action has the arrow of its direction, or a letter.
  */
 function namesToKeys(vocabulary: Vocabulary): Record<'subgoals' | 'actions', (string | undefined)[]> {
-  const usedIn = (modes: readonly Mode[]): Set<string> =>
-    new Set(
-      [...modes.flatMap(answerBindings), undo(), ...commonBindings()].flatMap((binding) => binding.keys),
-    );
-  const reserved = usedIn(OF_SUBGOALS);
-  const initials = vocabulary.subgoals.map((name) => initial(name).toLowerCase());
-  const subgoals = initials.map((letter) => {
-    const unique = initials.indexOf(letter) === initials.lastIndexOf(letter);
-    return unique && /^[a-z]$/.test(letter) && !reserved.has(letter) ? letter : undefined;
-  });
+  const subgoals = lettersOf(vocabulary.subgoals);
   const taken = usedIn(OF_ACTIONS);
   for (const key of subgoals) if (key !== undefined) taken.add(key);
   const actions = vocabulary.actions.map((name) => {

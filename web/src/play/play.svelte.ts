@@ -82,6 +82,16 @@ export class Play {
     return demos.isComplete(this.demonstration, this.ask);
   }
 
+  /** Whether there is no move to make: the episode has ended, or all asked segments are played. */
+  get over(): boolean {
+    return this.demonstration.ended || this.complete;
+  }
+
+  /** Whether a segment has a step, so that its subgoal is fixed. */
+  get underway(): boolean {
+    return (this.current?.actions.length ?? 0) > 0;
+  }
+
   /** Milliseconds per frame while playing. */
   get pace(): number {
     return 1000 / players.framesPerSecond(this.player, this.#firstShowing);
@@ -178,7 +188,7 @@ export class Play {
   }
 
   #reached(): void {
-    if (this.demonstration.ended || this.ask.flat || this.complete) this.#send();
+    if (this.over || this.ask.flat) this.#send();
     else this.#make({ does: 'reach' });
   }
 
@@ -238,12 +248,7 @@ export class Play {
   /** Before the first step of a segment, pointing chooses its subgoal. */
   #pointing(): Pointing {
     const { subgoals } = this.#options.vocabulary;
-    const mayChoose =
-      !this.ask.flat &&
-      !this.demonstration.ended &&
-      !this.current?.actions.length &&
-      !this.complete &&
-      !this.looksBack;
+    const mayChoose = !this.ask.flat && !this.over && !this.underway && !this.looksBack;
     const choose = (name: string): void => this.run(`choose:${subgoals.indexOf(name)}`);
     const show = this.playsOn ? (frame: number): void => this.seek(frame) : null;
     return { show, pick: show, choose: mayChoose ? choose : null, labeling: null };

@@ -1,7 +1,16 @@
 import { expect, test } from 'vitest';
 import type { Answerable } from '../api/types';
 import { buildTape } from '../player/tape';
-import { choicesWords, firstToSee, frameOf, labelWords, placeOf, verdictWords, type Mark } from './review';
+import {
+  choicesWords,
+  firstToSee,
+  frameOf,
+  labelWords,
+  mistakeOf,
+  placeOf,
+  verdictWords,
+  type Mark,
+} from './review';
 
 const segment = (subgoal: string, from: number, n: number) => ({
   subgoal,
@@ -41,8 +50,9 @@ test('labels and their places are put in words', () => {
 });
 
 test('the first wrong label is looked at first', () => {
-  expect(firstToSee([mark(0, true), mark(1, false), mark(2, false)])).toBe(1);
-  expect(firstToSee([mark(0, true)])).toBe(0);
+  const hi = ask('label_hi', [segment('east', 2, 3), segment('down', 5, 2), segment('west', 7, 1)]);
+  expect(firstToSee(hi, [mark(0, true), mark(1, false), mark(2, false)])).toBe(1);
+  expect(firstToSee(ask('inspect_lo', []), [mark(0, true)])).toBe(0);
 });
 
 test.each([
@@ -52,4 +62,16 @@ test.each([
   [[true, false, false], '1 of 3 right'],
 ])('%j is %s', (right, words) => {
   expect(verdictWords(right.map((is_right, place) => mark(place, is_right)))).toBe(words);
+});
+
+test('a right answer shows what the learner did wrong', () => {
+  const down = (place: number): Mark => ({ ...mark(place, true), given: 'down' });
+  const hi = ask('label_hi', [segment('down', 2, 3), segment('east', 5, 2)]);
+  expect([0, 1].map((place) => mistakeOf(hi, down(place)))).toEqual([null, 'east']);
+  expect(firstToSee(hi, [down(0), down(1)])).toBe(1);
+  const lo = { ...ask('label_lo', [segment('east', 2, 1)]), suggestion: { terminations: [false, true] } };
+  const end = { ...mark(1, true), given: '(not done)', right: ['(not done)'] };
+  const labels = lo as unknown as Answerable;
+  expect([down(0), end].map((one) => mistakeOf(labels, one))).toEqual(['right', '(done)']);
+  expect(mistakeOf(ask('inspect_lo', [segment('east', 2, 1)]), down(0))).toBeNull();
 });

@@ -20,6 +20,24 @@ export function placeOf(ask: Answerable, mark: Mark): string {
   return ask.kind === 'label_hi' ? t(`Segment ${mark.place + 1}`) : t(`State ${mark.place + 1}`);
 }
 
+/**
+ * Return the learner's own label if it is a mistake, for an answer that corrects it; else null. An inspection labels
+ * nothing that the learner chose.
+ */
+export function mistakeOf(ask: Answerable, { place, right }: Mark): string | null {
+  const own = ownLabel(ask, place);
+  return own === null || right.includes(own) ? null : own;
+}
+
+function ownLabel(ask: Answerable, place: number): string | null {
+  if (ask.kind === 'inspect_full' || ask.kind === 'inspect_lo') return null;
+  if (ask.kind === 'label_hi') return ask.segments[place]?.subgoal ?? null;
+  const action = ask.segments.flatMap((segment) => segment.actions)[place];
+  if (ask.kind === 'label_full' || action !== undefined) return action ?? null;
+  const { suggestion } = ask;
+  return suggestion && 'terminations' in suggestion && suggestion.terminations.at(-1) ? '(done)' : null;
+}
+
 /** Return a label in words; the end of a segment is a label too. */
 export function labelWords(label: string | null): string {
   if (label === null) return t('nothing');
@@ -34,12 +52,10 @@ export function choicesWords(right: readonly string[]): string {
   return either(right.map(labelWords));
 }
 
-/** Return the index of the first wrong label; 0 if all are right. */
-export function firstToSee(marks: readonly Mark[]): number {
-  return Math.max(
-    0,
-    marks.findIndex((mark) => !mark.is_right),
-  );
+/** Return the index of the first label that is wrong or corrects the learner; 0 if there is none. */
+export function firstToSee(ask: Answerable, marks: readonly Mark[]): number {
+  const wrong = marks.findIndex((mark) => !mark.is_right);
+  return Math.max(0, wrong >= 0 ? wrong : marks.findIndex((mark) => mistakeOf(ask, mark) !== null));
 }
 
 /** Return the result in words: "Right", "2 of 5 right". */

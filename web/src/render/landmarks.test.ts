@@ -35,9 +35,9 @@ describe('the landmarks of a picture', () => {
     expect(landmarksOf(sceneOf({}))).toEqual([]);
   });
 
-  it('have a letter where it is enough, and else their names', () => {
+  it('have the keys that choose their subgoals', () => {
     const tags = landmarksOf(sceneOf(boxes)).flatMap(({ marks }) => marks.map((mark) => mark.tag));
-    expect(tags).toEqual(['D', 'stair', 'stair back']);
+    expect(tags).toEqual(['4', '1', '3']);
   });
 
   it('tell which subgoal is asked about, and which is chosen', () => {

@@ -1,6 +1,6 @@
 // The landmarks of a picture: where its subgoals are, and what choosing one would mean now.
-import { initial, readable } from '../api/names';
 import type { Box } from '../api/types';
+import { tagOf } from '../keys/tags';
 import type { Scene } from '../player/scene';
 
 /** A box in the picture, and the subgoals that have it. */
@@ -12,7 +12,7 @@ export interface Landmark {
 /** A subgoal at its landmark. */
 interface Mark {
   readonly subgoal: string;
-  readonly tag: string; // what is written beside the box: a letter if no other subgoal has it, else the name
+  readonly tag: string; // what is written beside the box: the key that chooses the subgoal
   readonly isAsked: boolean; // whether the current segment is about this subgoal
   readonly isChosen: boolean; // whether it is the label of the current segment
 }
@@ -51,11 +51,6 @@ export function fitted(picture: Size, frame: Size): Size {
 interface Size {
   readonly width: number;
   readonly height: number;
-}
-
-function tagOf(subgoal: string, subgoals: readonly string[]): string {
-  const letter = initial(subgoal);
-  return subgoals.filter((one) => initial(one) === letter).length === 1 ? letter : readable(subgoal);
 }
 
 function area({ left, top, right, bottom }: Box): number {

@@ -1,5 +1,5 @@
 // Draws a maze and the trajectory through it.
-import { initial } from '../../api/names';
+import { numbered, tagOf } from '../../keys/tags';
 import type { Label, Scene } from '../../player/scene';
 import type { Stretch } from '../../player/tape';
 import { isDoor, isLava, parseCell, type Cell, type Maze } from './geometry';
@@ -179,7 +179,8 @@ function drawMarkers(brush: Brush, picture: Picture): void {
   const marked = scene.tape.stretches.flatMap((stretch) => {
     const cell = cellAt(picture, stretch.first);
     if (cell === null || stretch.subgoal === null) return [];
-    const text = `${stretch.index + 1}${initial(stretch.subgoal)}${stretch.failed ? '✗' : ''}`;
+    const tag = tagOf(stretch.subgoal, scene.vocabulary.subgoals);
+    const text = numbered(stretch.index + 1, tag) + (stretch.failed ? '✗' : '');
     const width = Math.max(unit * 0.56, brush.measureText(text).width + letters * 0.5);
     return [{ stretch, text, cell, size: [(letters * 1.4) / unit, width / unit] as const }];
   });
@@ -195,7 +196,7 @@ function drawMarkers(brush: Brush, picture: Picture): void {
   }
 }
 
-/** Draw where a subgoal was chosen: its number and letter. */
+/** Draw where a subgoal was chosen: its number and tag. */
 function drawMarker(
   brush: Brush,
   picture: Picture,
@@ -246,7 +247,7 @@ function drawLabel(brush: Brush, picture: Picture, label: Label): void {
   brush.stroke();
 }
 
-/** Draw where a subgoal can be chosen: its letter in a disc, filled if it is the label of the current segment. */
+/** Draw where a subgoal can be chosen: its tag in a disc, filled if it is the label of the current segment. */
 function drawPlace(brush: Brush, picture: Picture, { subgoal, cell }: Place): void {
   const { palette, scene } = picture;
   const unit = unitOf(picture);
@@ -265,7 +266,7 @@ function drawPlace(brush: Brush, picture: Picture, { subgoal, cell }: Place): vo
   brush.fillStyle = isChosen ? palette.map['marker-text'] : color;
   brush.textAlign = 'center';
   brush.textBaseline = 'middle';
-  brush.fillText(initial(subgoal), x, y + unit * 0.02);
+  brush.fillText(tagOf(subgoal, scene.vocabulary.subgoals), x, y + unit * 0.02);
 }
 
 /** Draw the way that the annotator is drawing, with an arrow at its tip. */

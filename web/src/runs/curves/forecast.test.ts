@@ -84,7 +84,13 @@ describe('a forecast in words', () => {
     const sources = (more: Partial<Forecast>): string | undefined =>
       sourcesOf(forecast({ more_units, ...more }))?.split('.')[0];
     expect(sources({ same_configuration: 1, other_configurations: 12 })).toBe(
-      'From this run’s own curve, 1 finished run with the same configuration and 12 others of its domain and algorithm',
+      'From this run’s own curve, 1 finished run with the same configuration and 12 finished runs with other configurations',
+    );
+    expect(sources({ same_configuration: 0, other_configurations: 1 })).toBe(
+      'From this run’s own curve and 1 finished run with another configuration',
+    );
+    expect(sources({ same_configuration: 2 })).toBe(
+      'From this run’s own curve and 2 finished runs with the same configuration',
     );
     expect(sources({ same_configuration: 0 })).toBe('From this run’s own curve');
     expect(sourcesOf(forecast())).toBeNull();

@@ -70,11 +70,12 @@ export function sourcesOf({ more_units, same_configuration, other_configurations
     '# finished run with the same configuration',
     '# finished runs with the same configuration',
   ]);
-  if (other_configurations === 0) return t(`From this run’s own curve, ${same}. ${brackets}`);
   const others = count(other_configurations, [
-    '# other of its domain and algorithm',
-    '# others of its domain and algorithm',
+    '# finished run with another configuration',
+    '# finished runs with other configurations',
   ]);
+  if (same_configuration === 0) return t(`From this run’s own curve and ${others}. ${brackets}`);
+  if (other_configurations === 0) return t(`From this run’s own curve and ${same}. ${brackets}`);
   return t(`From this run’s own curve, ${same} and ${others}. ${brackets}`);
 }
 
