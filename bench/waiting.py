@@ -25,23 +25,22 @@ from waypost.client import Client
 from waypost.domains import find_domain
 from waypost_learner.experts.oracle import OracleExpert
 
-STARTED = 60.0  # seconds until the first question at the latest
-LONGEST = 120.0  # seconds; a longer wait means that the run is over
+LONGEST = 5.0  # seconds for which one request waits
 
 
-def waits(person: Client) -> Iterator[tuple[bool, float]]:
-    """Answer as a person would; yield each wait in seconds, and whether a new episode began."""
-    expert, lease = OracleExpert(find_domain("maze")), wire.Lease(wait=LONGEST)
-    held, episode = person.lease(wire.Lease(wait=STARTED)), 0
-    while held is not None:
+def waits(person: Client, training: "subprocess.Popen[bytes]") -> Iterator[tuple[bool, float]]:
+    """Answer as a person would, to the end of the run; yield each wait in seconds, and whether a new episode began."""
+    expert, episode, answered = OracleExpert(find_domain("maze")), -1, 0.0
+    while training.poll() is None:
+        held = person.lease(wire.Lease(wait=LONGEST))
+        if held is None:
+            continue
+        if answered:
+            yield held.query.ask.episode != episode, time.perf_counter() - answered
         answer = expert(held.query.ask)
         time.sleep(seconds_of(held.query.ask, answer))
         person.answer(held, answer)
-        began = time.perf_counter()
-        held = person.lease(lease)
-        if held is not None:
-            yield held.query.ask.episode != episode, time.perf_counter() - began
-            episode = held.query.ask.episode
+        episode, answered = held.query.ask.episode, time.perf_counter()
 
 
 def row(name: str, times: list[float]) -> str:
@@ -68,8 +67,7 @@ def main() -> None:
             subprocess.Popen(command, stdout=subprocess.DEVNULL, cwd=Path(folder)) as training,
             closing(Client(url, answering)) as person,
         ):
-            found = list(waits(person))
-            training.terminate()
+            found = list(waits(person, training))
     print(machine())
     print(f"{' '.join(options)}\n\n| waits, seconds | number | median | p95 | longest |\n|---|---|---|---|---|")
     print(row("between episodes", [wait for first, wait in found if first]))
