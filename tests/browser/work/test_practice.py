@@ -1,5 +1,7 @@
 """The worked examples of the first practice show a learner's mistakes, and how a right answer corrects them."""
 
+import re
+
 import pytest
 from playwright.sync_api import expect
 from tests.browser.conftest import Open
@@ -11,9 +13,11 @@ SIZES = [{"width": 1440, "height": 900}, {"width": 390, "height": 844}]
 @pytest.mark.parametrize("size", SIZES)
 def test_every_worked_example_has_a_mistake(open_page: Open, size: Json) -> None:
     page = open_page("/practice?first=yes", size=size, motion="reduce")
-    for mistake in ("no, it failed", "no, it failed", "instead of south", "instead of left", "instead of right"):
+    page.get_by_text("Worked example").wait_for()
+    kinds = int(page.locator("main").inner_text().split(" of ")[-1].split(",")[0])  # those that runs on the server ask
+    for _ in range(kinds):
         page.get_by_text("Worked example").wait_for()
-        corrected = page.get_by_role("button", name=mistake).first
+        corrected = page.get_by_role("button", name=re.compile("no, it failed|instead of")).first
         expect(corrected).to_have_attribute("aria-current", "step")
         expect(corrected).to_be_in_viewport(ratio=0.9)
         page.keyboard.press("Enter")
