@@ -41,7 +41,7 @@ def _plain(value: float | None) -> str:
 def markdown(comparison: Comparison) -> Iterator[str]:
     """Yield the lines of a group's tables.
 
-    Our numbers are "median (min to max)" over runs. The published numbers are in the row below.
+    Our numbers are "median (min to max)" over so many runs. The published numbers are in the row below.
     """
     for topic in topics(comparison):
         yield from (f"**{topic.title}**", "")
@@ -56,14 +56,15 @@ def markdown(comparison: Comparison) -> Iterator[str]:
 
 
 def _table(head: Sequence[str], found: Sequence[Result]) -> Iterator[str]:
-    yield f"| | {' | '.join(head)} |"
-    yield "|---" * (len(head) + 1) + "|"
+    yield f"| | runs | {' | '.join(head)} |"
+    yield "|---" * (len(head) + 2) + "|"
     for series, of in groupby(found, lambda result: result.series):
         row = list(of)
-        yield f"| {series} | {' | '.join(_ours(result.ours, result.unit) for result in row)} |"
+        runs = max((result.ours.runs for result in row if result.ours), default=0)
+        yield f"| {series} | {runs} | {' | '.join(_ours(result.ours, result.unit) for result in row)} |"
         if any(result.published is not None for result in row):
             published = " | ".join(_number(result.published, result.unit) for result in row)
-            yield f"| {series}, published | {published} |"
+            yield f"| {series}, published | | {published} |"
 
 
 def _ours(spread: Spread | None, unit: Unit) -> str:
