@@ -7,7 +7,7 @@ from playwright.sync_api import expect
 from tests.browser.conftest import Open
 from tests.browser.kit import Json
 
-SIZES = [{"width": 1440, "height": 900}, {"width": 390, "height": 844}]
+SIZES = [{"width": 1440, "height": 900}, {"width": 768, "height": 1024}, {"width": 390, "height": 844}]
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -23,3 +23,9 @@ def test_every_worked_example_has_a_mistake(open_page: Open, size: Json) -> None
         page.keyboard.press("Enter")
         page.get_by_role("button", name="Skip").first.wait_for()
         page.keyboard.press("Shift+S")
+
+
+def test_on_a_tablet_the_bar_is_in_the_window(open_page: Open) -> None:
+    page = open_page("/practice?first=yes", size=SIZES[1])
+    page.get_by_text("Worked example").wait_for()
+    expect(page.get_by_role("button", name="Skip the practice")).to_be_in_viewport(ratio=1)
