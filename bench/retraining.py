@@ -63,7 +63,8 @@ def main() -> None:
     done = 0
     for calls in given.calls:
         for _ in range(calls - done):
-            learner.shared.train_idle(learner.data)
+            for _ in learner.shared.idle_updates(learner.data):
+                pass
         done = calls
         solved = evaluate(learner, tests, len(tests)).successes
         print(f"| {BATCHES * done:,} | {solved} | {gates(learner.shared)} |", flush=True)

@@ -1,6 +1,6 @@
 """Measures how long a person waits for the next question while a learner trains.
 
-    PYTHONPATH=. python bench/waiting.py [--episodes 60] [--preset general --told crop --warm-start 1]
+    PYTHONPATH=. python bench/waiting.py [--episodes 60] [--preset general --told crop --warm-start 1 --in-flight 2]
 
 A server, `waypost train --expert queue` with two threads, and a program that answers with the oracle run on this
 machine. The program takes as long for an answer as `bench/person.py` estimates for a person. A wait is the time from an
@@ -57,6 +57,7 @@ def main() -> None:
     arguments.add_argument("--preset", default="general")
     arguments.add_argument("--told", default="crop")
     arguments.add_argument("--warm-start", default="1")
+    arguments.add_argument("--in-flight", default="1")
     given = arguments.parse_args()
     options = [f"--{name.replace('_', '-')}={value}" for name, value in vars(given).items()]
     with TemporaryDirectory() as folder, serving(f"sqlite:///{folder}/waiting.db") as (url, _, learner, annotators):

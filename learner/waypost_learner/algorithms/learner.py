@@ -1,6 +1,8 @@
 """A learner: its policies, the data buffers they learn from, and rollouts under them."""
 
+import math
 import os
+import time
 from collections.abc import Collection, Hashable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -92,6 +94,7 @@ class Learner:
         self._together: Sequence[Start] = ()  # whose rollouts `roll_out` makes when it is given the first of them
         self._rolled_out: dict[Start, Trajectory] = {}  # their rollouts that were not returned yet
         self.due: list[PolicyKey] = []  # the policies that `train_idle` trains
+        self._begun: list[Iterator[None]] = []  # their updates, once it has begun
         # One thread per policy: small networks gain nothing from threads within one operation. What a policy learns
         # depends on its own data and generator alone, so the number of threads changes nothing but the time.
         torch.set_num_threads(1)
@@ -100,6 +103,8 @@ class Learner:
     @property
     def policies(self) -> Policies:
         """All policies as functions of observations. Take them again after they have learned."""
+        if self._begun:  # else what they choose would depend on how soon the expert answered
+            self.train_idle()
         if self.shared is not None:
             return self.shared.parts(self._keys)
         return {key: self.views[key].wrap(self._own(key)) for key in self._keys}
@@ -284,19 +289,37 @@ class Learner:
             self.shared.see(list(self._transitions_of(labels)), list(ends_of(labels)))
         grown = {self.views[key].owner for key, data in self.data.items() if len(data) > sizes[key]}
         self.due = [key for key, policy in self.imitators.items() if policy.spec.every_episode or key in grown]
-        list(self._threads.map(partial(self._train, idle=False), self.due))
+        list(self._threads.map(self._train, self.due))
 
-    def train_idle(self) -> None:
-        """Train the policies that the last `learn` trained again, each on the `idle` rows of its specification."""
-        list(self._threads.map(partial(self._train, idle=True), self.due))
-        self.due = []
+    def train_idle(self, seconds: float = math.inf) -> bool:
+        """Train the policies that the last `learn` trained again, each on the `idle` rows of its specification.
 
-    def _train(self, key: PolicyKey, idle: bool) -> None:
+        Args:
+            seconds: how long to train; the next call goes on. What is learned does not depend on it.
+
+        Returns:
+            Whether all of it is done.
+        """
+        if not self._begun:
+            self._begun = [self._idle_updates(key) for key in self.due]
+        goes_on = self._threads.map(partial(_advance, until=time.monotonic() + seconds), self._begun)
+        self._begun = [updates for updates, more in zip(self._begun, goes_on, strict=True) if more]
+        if not self._begun:
+            self.due = []
+        return not self._begun
+
+    def _train(self, key: PolicyKey) -> None:
         policy = self.imitators[key]
         if isinstance(policy, SharedPolicy):
-            (policy.train_idle if idle else policy.train)(self.data)
+            policy.train(self.data)
         else:
-            (policy.train_idle if idle else policy.train)(self.data[key])
+            policy.train(self.data[key])
+
+    def _idle_updates(self, key: PolicyKey) -> Iterator[None]:
+        policy = self.imitators[key]
+        return (
+            policy.idle_updates(self.data) if isinstance(policy, SharedPolicy) else policy.idle_updates(self.data[key])
+        )
 
     def _transitions_of(self, labels: Labels) -> Iterator[Row]:
         """Yield the observations before and after each action that changed them, of all trajectories with labels.
@@ -359,3 +382,8 @@ class Learner:
                 key, one = given if each is None else transformed_experience(*given, each)
                 if key in self.q:
                     self.q[key].remember(one.observed(self.views[key].view.observe))
+
+
+def _advance(updates: Iterator[None], until: float) -> bool:
+    """Make updates until the time `until` of `time.monotonic`; return whether there may be more of them."""
+    return any(time.monotonic() >= until for _ in updates)

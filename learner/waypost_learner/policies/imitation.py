@@ -5,6 +5,7 @@ view the subgoal termination classifier as an extra head of the subgoal policy n
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import torch
@@ -96,13 +97,17 @@ class Policy:
 
     def train(self, data: Dataset) -> None:
         """Train(policy, D): make a few passes over the data, each in a new random order."""
-        self._fit(data, min(max(self.spec.passes * len(data), self.spec.least), self.spec.most))
+        for _ in self._updates(data, min(max(self.spec.passes * len(data), self.spec.least), self.spec.most)):
+            pass
 
-    def train_idle(self, data: Dataset) -> None:
-        """Train as `train` does, on as many more rows as `idle` says. The caller does this while the expert answers."""
-        self._fit(data, self.spec.idle)
+    def idle_updates(self, data: Dataset) -> Iterator[None]:
+        """Train as `train` does, on as many more rows as `idle` says, and yield after each update.
 
-    def _fit(self, data: Dataset, n_rows: int) -> None:
+        The caller goes on with the next update whenever the expert lets it wait.
+        """
+        return self._updates(data, self.spec.idle)
+
+    def _updates(self, data: Dataset, n_rows: int) -> Iterator[None]:
         if not len(data) or not n_rows:
             return
         spec = self.spec
@@ -119,6 +124,7 @@ class Policy:
             self.optimizer.step()
             if self.average is not None:
                 self.average.update_parameters(self.network)
+            yield
         self.network.eval()
 
     def _loss(self, out: torch.Tensor, labels: torch.Tensor) -> torch.Tensor:

@@ -4,8 +4,8 @@ Several episodes may be open at once (`in_flight`). Their results are applied in
 right after episode t was applied. With several `environments`, that many episodes start at the same moment, and their
 rollouts step together. So a run is a function of its configuration and the answers; the order and the speed
 of the answers do not matter. This also holds for training while the expert answers: its amount is fixed, and it ends
-before the policies act again. A query is identified by its episode and ordinal, so a restarted learner asks the same
-queries and pays for each only once.
+before the policies act again. Meanwhile, answers that have come let their episodes ask the next query. A query is
+identified by its episode and ordinal, so a restarted learner asks the same queries and pays for each only once.
 """
 
 import time
@@ -36,6 +36,7 @@ from waypost_learner.runs.run_queue import RunQueue
 from waypost_learner.runs.setup import Setup
 
 CHECKPOINT_EVERY = 25  # episodes
+_UNTIL_NEXT_LOOK = 0.2  # seconds of training while the expert answers, until the learner looks for answers
 
 Withdraw = Callable[[], None]
 Offer = Callable[[int, Translator], Withdraw]
@@ -126,11 +127,12 @@ class Driver:
                 while together := self._may_start():
                     self._start_episodes(range(self._next, self._next + together))
                     self._next += together
-                self._learner.train_idle()
+                while not self._learner.train_idle(_UNTIL_NEXT_LOOK):
+                    self._use_answers(wait=False)
                 if self._open[0].labels is not None:
                     self._apply(self._open.popleft())
                 else:
-                    self._wait()
+                    self._use_answers(wait=True)
         finally:
             for episode in self._open:
                 episode.withdraw()
@@ -238,10 +240,12 @@ class Driver:
             return answer.subgoals == [segment.subgoal for segment in ask.segments]
         return None
 
-    def _wait(self) -> None:
-        """Wait for answers, and continue the episodes that they belong to."""
+    def _use_answers(self, wait: bool) -> None:
+        """Continue the episodes that new answers belong to. If there are none, perhaps wait for them."""
+        if all(episode.pending is None for episode in self._open):
+            return
         self._hooks.let_answer()
-        answered = self._queue.answered()
+        answered = self._queue.answered(wait)
         for episode in self._open:
             if episode.pending in answered:
                 query = self._advance(episode)

@@ -46,9 +46,9 @@ class RunQueue:
                 return None
             raise
 
-    def answered(self) -> set[int]:
-        """Return the queries answered since the last call, after waiting up to `POLL_SECONDS` for the first."""
-        page = self._client.answers(self.run, self._cursor, wait=POLL_SECONDS)
+    def answered(self, wait: bool) -> set[int]:
+        """Return the queries answered since the last call. `wait`: for the first, up to `POLL_SECONDS`."""
+        page = self._client.answers(self.run, self._cursor, wait=POLL_SECONDS if wait else 0)
         self._cursor = page.cursor
         return {query.id for query in page.queries}
 

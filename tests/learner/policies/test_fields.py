@@ -264,7 +264,7 @@ def test_a_network_that_cannot_learn_any_more_says_so() -> None:
     with torch.no_grad():
         learner.shared.network.source.bias.fill_(float("nan"))
     with pytest.raises(ValueError, match=r"no numbers.*lower train_shared\.learning_rate"):
-        learner.shared.train_idle(learner.data)
+        list(learner.shared.idle_updates(learner.data))
 
 
 def test_rollouts_compute_what_the_network_says_of_a_picture_once() -> None:

@@ -215,7 +215,7 @@ def test_dropout_is_on_in_training_alone() -> None:
 def test_policies_train_idle_by_the_rows_of_their_preset(idle: int) -> None:
     trained = policy(spec=replace(SPEC, idle=idle))
     before = weights(trained)
-    trained.train_idle(data(50))
+    assert sum(1 for _ in trained.idle_updates(data(50))) == idle / SPEC.batch
     assert all(equal(before, weights(trained))) == (idle == 0)
 
 
@@ -228,14 +228,20 @@ def test_numbers_with_which_nothing_could_be_trained_are_refused(number: dict[st
         TrainSpec(**number)
 
 
-def test_policies_train_idle_once_after_an_episode_and_only_those_it_taught() -> None:
+def taught_mu(idle: int) -> Learner:
+    """A learner that has just learned an episode's labels of mu, after which policies train on `idle` rows more."""
     domain = CorridorDomain()
-    spec = replace(TINY_TRAIN, idle=32)
+    spec = replace(TINY_TRAIN, idle=idle)
     learner = Learner(domain, TINY.with_values(train_hi=spec, train_lo=spec), seed=0, threads=1)
     sigma = learner.roll_out(learner.start(domain.instances("random").train[0], 0))
     labels = Labels()
     labels.append_hi(sigma, [0 for _ in sigma])
     learner.learn(labels)
+    return learner
+
+
+def test_policies_train_idle_once_after_an_episode_and_only_those_it_taught() -> None:
+    learner = taught_mu(idle=32)
     learned = {key: weights(one) for key, one in learner.imitators.items()}
     learner.train_idle()
     once = {key: weights(one) for key, one in learner.imitators.items()}
@@ -244,3 +250,17 @@ def test_policies_train_idle_once_after_an_episode_and_only_those_it_taught() ->
     for key, one in learner.imitators.items():
         assert all(equal(once[key], weights(one)))
         assert key == META or all(equal(learned[key], once[key]))
+
+
+def test_what_idle_training_learns_does_not_depend_on_where_it_stops() -> None:
+    without_stops, with_stops, used_early = (taught_mu(idle=10 * TINY_TRAIN.batch) for _ in range(3))
+    without_stops.train_idle()
+    stops = 0
+    while not with_stops.train_idle(seconds=0):
+        stops += 1
+    assert stops == 10
+    used_early.train_idle(seconds=0)
+    assert used_early.policies  # whoever uses them gets policies that have trained to the end
+    expected = weights(without_stops.imitators[META])
+    for learner in (with_stops, used_early):
+        assert all(equal(expected, weights(learner.imitators[META])))

@@ -1,7 +1,7 @@
 """The driver: the same run whoever answers and in whatever order; what a budget, a pause and a refusal do to it."""
 
 import random
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -20,10 +20,12 @@ from waypost_learner.domains.maze.maze import Maze
 from waypost_learner.experts.bot import Bot, BotSettings
 from waypost_learner.experts.head_start import head_start
 from waypost_learner.experts.oracle import OracleExpert
+from waypost_learner.policies.datasets import Dataset
 from waypost_learner.policies.imitation import Policy
 from waypost_learner.remote.connection import Connection
 from waypost_learner.remote.translation import vocabulary
 from waypost_learner.rollout.simulator import Simulator
+from waypost_learner.runs import driver
 from waypost_learner.runs.checkpoints import read_header
 from waypost_learner.runs.config import TrainConfig
 from waypost_learner.runs.training import train
@@ -102,7 +104,10 @@ def test_fewer_tests_change_nothing_but_the_tests(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("in_flight", [1, 3])
-def test_training_on_and_asking_less_depend_on_nobodys_pace(tmp_path: Path, in_flight: int) -> None:
+def test_training_on_and_asking_less_depend_on_nobodys_pace(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, in_flight: int
+) -> None:
+    monkeypatch.setattr(driver, "_UNTIL_NEXT_LOOK", 0)  # answers come after each update
     train_idle = " ".join(f"train_{level}.idle=32" for level in ("hi", "lo"))
     sampled = "monitoring.share=0.5 monitoring.rate=0.5 monitoring.confidence=0.5"
     config = corridor(in_flight=in_flight, values=f"{train_idle} {sampled}")
@@ -121,8 +126,8 @@ def test_the_next_question_is_put_before_policies_train_idle(tmp_path: Path, mon
             events.append("learned")
             self._client.report(run, results)
 
-    trained_on = Policy.train_idle
-    monkeypatch.setattr(Policy, "train_idle", lambda policy, rows: (events.append("on"), trained_on(policy, rows)))
+    trained_on = Policy.idle_updates
+    monkeypatch.setattr(Policy, "idle_updates", lambda policy, rows: (events.append("on"), trained_on(policy, rows))[1])
     config = corridor(values="train_hi.idle=32 train_lo.idle=32", episodes=8)
     with store(tmp_path) as (connection, options):
         between: Any = Noted(connection, seed=0)
@@ -131,6 +136,31 @@ def test_the_next_question_is_put_before_policies_train_idle(tmp_path: Path, mon
     last = len(events) - 1 - events[::-1].index("learned")
     before = {events[i - 1] for i in range(1, last) if events[i] == "on"} - {"on"}
     assert before == {"asks"}
+
+
+def test_an_episode_goes_on_while_policies_train(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(driver, "_UNTIL_NEXT_LOOK", 0)
+    events: list[str] = []
+
+    class Noted(OutOfOrder):
+        def ask(self, run: str, queries: Sequence[wire.Ask]) -> list[wire.Query]:
+            events.append("asks" if queries[0].ordinal == 0 else "goes on")
+            return self._client.ask(run, queries)
+
+    trained_on = Policy.idle_updates
+
+    def noted(policy: Policy, rows: Dataset) -> Iterator[None]:
+        for update in trained_on(policy, rows):
+            events.append("update")
+            yield update
+        events.append("trained")
+
+    monkeypatch.setattr(Policy, "idle_updates", noted)
+    with store(tmp_path) as (connection, options):
+        between: Any = Noted(connection, seed=0)
+        train(corridor(values="train_hi.idle=320", in_flight=3), Connection(between, None), options)
+    during = {after for before, after in pairwise(events) if before == "update"}
+    assert during == {"update", "goes on", "trained"}
 
 
 def test_one_episode_in_flight_never_has_more_than_one_open_question(tmp_path: Path, plain: tuple[Any, ...]) -> None:
@@ -207,7 +237,9 @@ def test_a_run_whose_budget_ends_has_learned_all_it_paid_for(
     events: list[str] = []
     learn, train_idle = Learner.learn, Learner.train_idle
     monkeypatch.setattr(Learner, "learn", lambda learner, labels: (events.append("learn"), learn(learner, labels)))
-    monkeypatch.setattr(Learner, "train_idle", lambda learner: (events.append("on"), train_idle(learner)))
+    monkeypatch.setattr(
+        Learner, "train_idle", lambda learner, *some: (events.append("on"), train_idle(learner, *some))[1]
+    )
     with store(tmp_path) as (connection, options):
         train(corridor(), connection, replace(options, budget=budget))
     assert "learn" in events

@@ -2,7 +2,7 @@
 
 import hashlib
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -195,11 +195,12 @@ class SharedPolicy:
         if not self.is_told:
             self._find_symmetries(data)
         n = sum(map(len, data.values()))
-        self._fit(data, min(max(self.spec.passes * n, self.spec.least), self.spec.most))
+        for _ in self._updates(data, min(max(self.spec.passes * n, self.spec.least), self.spec.most)):
+            pass
 
-    def train_idle(self, data: Data) -> None:
-        """Train as `train` does, on as many more rows as `idle` says. The caller does this while the expert answers."""
-        self._fit(data, self.spec.idle)
+    def idle_updates(self, data: Data) -> Iterator[None]:
+        """Train as `train` does, on as many more rows as `idle` says, and yield after each update."""
+        return self._updates(data, self.spec.idle)
 
     def _find_symmetries(self, data: Data) -> None:
         every, last = torch.zeros(2, self._n_subgoals, self._n_actions, dtype=torch.int64)
@@ -210,7 +211,7 @@ class SharedPolicy:
         self.network.symmetries = find_symmetries(self._shape, self.network.displacements, (every, last))
         self._acting.symmetries = self.network.symmetries.clone()
 
-    def _fit(self, data: Data, n_rows: int) -> None:
+    def _updates(self, data: Data, n_rows: int) -> Iterator[None]:
         rows = [(key, row) for key, one in data.items() for row in range(len(one))]
         if not rows or not n_rows:
             return
@@ -233,6 +234,7 @@ class SharedPolicy:
                 )
             self.optimizer.step()
             self.average.update_parameters(self.network)
+            yield
         self.network.eval()
 
     def _rate(self) -> float:
