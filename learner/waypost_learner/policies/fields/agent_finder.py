@@ -13,11 +13,12 @@ _UPDATES, _BATCH, _LEARNING_RATE = 200, 64, 3e-2
 # The weight of the attention's entropy at the end: attention to a whole trail would tell the action too. At the start
 # it is 0, or else the attention soon stays at a pixel that never moves.
 _PEAKED = 0.1
-_TRIES = 20  # from new weights, until ...
-# ... the pixel with the most attention tells this share of the actions. A wrong pixel told at most 0.7 in mazes, the
-# agent at least 0.97: it cannot be seen where an episode ended with its death.
-_ENOUGH = 0.9
+_TRIES = 20  # from other initial weights, if ...
+_ENOUGH = 0.98  # ... the pixel with the most attention tells less than this share of the actions
+# With this share, one try is made: in failed rollouts the agent tells no more, since it cannot be seen where it died.
+_MOST = 0.9
 _RARE = 0.1  # moves to a pixel that are rarer are taken for mistakes of the attention
+_ALL = 0.999  # with this share, nothing is fitted again
 
 Transitions = tuple[torch.Tensor, torch.Tensor, torch.Tensor]
 """Pictures float32[N, C, rows, columns], the actions taken in them int64[N], the pictures after them."""
@@ -49,14 +50,15 @@ class AgentFinder(nn.Module):
         return torch.stack([best // x.shape[3], best % x.shape[3]], 1)
 
     def fit(self, transitions: Transitions, rng: torch.Generator) -> None:
-        """Fit the attention to transitions, from new weights, unless it tells nearly all their actions already."""
+        """Fit the attention to transitions, from new weights, unless it tells all their actions already."""
         best, found = self._told(transitions), {name: tensor.clone() for name, tensor in self.state_dict().items()}
-        tries = 0
-        while best < _ENOUGH and tries < _TRIES:
+        for _ in range(0 if best >= _ALL else 1 if best >= _MOST else _TRIES):
             self._fit_once(transitions, rng)
-            tries, told = tries + 1, self._told(transitions)
+            told = self._told(transitions)
             if told > best:
                 best, found = told, {name: tensor.clone() for name, tensor in self.state_dict().items()}
+            if best >= _ENOUGH:
+                break
         self.load_state_dict(found)
 
     def displacements(self, transitions: Transitions) -> torch.Tensor:
