@@ -317,18 +317,20 @@ class Learner:
 
     def _idle_updates(self, key: PolicyKey) -> Iterator[None]:
         policy = self.imitators[key]
-        return (
-            policy.idle_updates(self.data) if isinstance(policy, SharedPolicy) else policy.idle_updates(self.data[key])
-        )
+        if isinstance(policy, SharedPolicy):
+            return policy.idle_updates(self.data)
+        return policy.idle_updates(self.data[key])
 
     def _transitions_of(self, labels: Labels) -> Iterator[Row]:
         """Yield the observations before and after each action that changed them, of all trajectories with labels.
 
-        Who acted does not matter here: each action shows where it moves the agent.
+        Who acted does not matter here: each action shows where it moves the agent. Where the environment ended the
+        segment, the last action does not show it: the agent may be gone.
         """
         symmetries = symmetries_of(self.domain) if self.preset.use.symmetries else ()
         for segment in chain.from_iterable(trajectory for trajectory, _ in (*labels.hi, *labels.flat)):
-            for (before, after), action in zip(pairwise(segment.states), segment.actions, strict=True):
+            actions = segment.actions[:-1] if segment.final and not segment.terminated else segment.actions
+            for (before, after), action in zip(pairwise(segment.states), actions, strict=False):
                 pair = before.observation, after.observation
                 if np.array_equal(*pair):
                     continue

@@ -35,6 +35,19 @@ def demonstrated(instance: Maze) -> Trajectory:
     return tuple(sigma)
 
 
+def into_lava(instance: Maze) -> Segment:
+    """The first of random walks that ends in lava, as a segment."""
+    rng = np.random.default_rng(0)
+    while True:
+        simulator = Simulator(maze)
+        states, actions = [simulator.reset(instance)], list[int]()
+        while not simulator.ended:
+            actions.append(int(rng.integers(4)))
+            states.append(simulator.step(actions[-1]))
+        if simulator.final and not simulator.succeeded:
+            return Segment(0, tuple(states), tuple(actions), False, final=True)
+
+
 def taught(preset: Preset, n: int, first: int = 0, levels: Levels = HIERARCHY, seed: int = 0) -> Learner:
     learner = Learner(maze, preset, seed, levels, threads=1)
     teach(learner, n, first)

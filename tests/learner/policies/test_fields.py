@@ -1,13 +1,14 @@
 """One network for all policies: it finds the agent and its moves, and learns every policy from given labels."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 import torch
-from tests.learner.policies.fields_kit import TRAIN, briefly, demonstrated, maze, seen, taught, teach
+from tests.learner.policies.fields_kit import TRAIN, briefly, demonstrated, into_lava, maze, seen, taught, teach
 from torch.nn import functional
 
 from waypost.trajectory import Segment
@@ -46,20 +47,14 @@ def test_it_finds_the_agent_from_demonstrated_actions(symmetries: bool) -> None:
     np.testing.assert_allclose(network.displacements.cpu(), moved, atol=0.05)
 
 
-@pytest.mark.parametrize(("one_in", "tries"), [(20, 1), (5, 3)])
-def test_the_agent_is_looked_for_again_and_again_only_where_its_moves_tell_too_few_actions(
-    one_in: int, tries: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    shared = taught(briefly(0), 4).shared
-    assert shared is not None
-    monkeypatch.setattr(agent_finder, "_TRIES", 3)
-    made: list[AgentFinder] = []
-    monkeypatch.setattr(AgentFinder, "_fit_once", lambda finder, *_: made.append(finder))
-    pictures, labels = shared.transitions[range(len(shared.transitions))]
-    actions = labels[:, 0].clone()
-    actions[::one_in] = (actions[::one_in] + 1) % 4
-    shared.network.find_agent((pictures[:, 0], actions, pictures[:, 1]), torch.Generator())
-    assert len(made) == tries
+@pytest.mark.parametrize("final", [True, False])
+def test_an_agent_that_is_gone_after_an_episode_is_not_looked_for(final: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    learner, looked = taught(briefly(0), 1, first=1), list[AgentFinder]()
+    monkeypatch.setattr(AgentFinder, "_fit_once", lambda finder, *_: looked.append(finder))
+    labels = Labels()
+    labels.append_hi([replace(into_lava(TRAIN[500]), final=final)], [0])
+    learner.learn(labels)
+    assert (not looked) == final
 
 
 def test_an_action_that_nobody_showed_may_move_the_agent_anywhere() -> None:

@@ -54,6 +54,22 @@ class OutOfOrder:
         return self._client.answers(run, after, wait)
 
 
+class Noted(OutOfOrder):
+    """Notes when the learner asks an episode's first question, goes on with it, and has learned."""
+
+    def __init__(self, connection: Connection, events: list[str]) -> None:
+        super().__init__(connection, seed=0)
+        self._events = events
+
+    def ask(self, run: str, queries: Sequence[wire.Ask]) -> list[wire.Query]:
+        self._events.append("asks" if queries[0].ordinal == 0 else "goes on")
+        return self._client.ask(run, queries)
+
+    def report(self, run: str, results: Sequence[wire.EpisodeResult]) -> None:
+        self._events.append("learned")
+        self._client.report(run, results)
+
+
 def at_once(path: Path, config: TrainConfig) -> tuple[Any, ...]:
     """The run with every query answered the moment it is asked."""
     with store(path) as (connection, options):
@@ -116,21 +132,11 @@ def test_training_on_and_asking_less_depend_on_nobodys_pace(
 
 def test_the_next_question_is_put_before_policies_train_idle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     events: list[str] = []
-
-    class Noted(OutOfOrder):
-        def ask(self, run: str, queries: Sequence[wire.Ask]) -> list[wire.Query]:
-            events.append("asks" if queries[0].ordinal == 0 else "goes on")
-            return self._client.ask(run, queries)
-
-        def report(self, run: str, results: Sequence[wire.EpisodeResult]) -> None:
-            events.append("learned")
-            self._client.report(run, results)
-
     trained_on = Policy.idle_updates
     monkeypatch.setattr(Policy, "idle_updates", lambda policy, rows: (events.append("on"), trained_on(policy, rows))[1])
     config = corridor(values="train_hi.idle=32 train_lo.idle=32", episodes=8)
     with store(tmp_path) as (connection, options):
-        between: Any = Noted(connection, seed=0)
+        between: Any = Noted(connection, events)
         train(config, Connection(between, None), options)
     assert events[:4] == ["asks", "learned", "asks", "on"]
     last = len(events) - 1 - events[::-1].index("learned")
@@ -141,12 +147,6 @@ def test_the_next_question_is_put_before_policies_train_idle(tmp_path: Path, mon
 def test_an_episode_goes_on_while_policies_train(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(driver, "_UNTIL_NEXT_LOOK", 0)
     events: list[str] = []
-
-    class Noted(OutOfOrder):
-        def ask(self, run: str, queries: Sequence[wire.Ask]) -> list[wire.Query]:
-            events.append("asks" if queries[0].ordinal == 0 else "goes on")
-            return self._client.ask(run, queries)
-
     trained_on = Policy.idle_updates
 
     def noted(policy: Policy, rows: Dataset) -> Iterator[None]:
@@ -157,7 +157,7 @@ def test_an_episode_goes_on_while_policies_train(tmp_path: Path, monkeypatch: py
 
     monkeypatch.setattr(Policy, "idle_updates", noted)
     with store(tmp_path) as (connection, options):
-        between: Any = Noted(connection, seed=0)
+        between: Any = Noted(connection, events)
         train(corridor(values="train_hi.idle=320", in_flight=3), Connection(between, None), options)
     during = {after for before, after in pairwise(events) if before == "update"}
     assert during == {"update", "goes on", "trained"}

@@ -15,8 +15,6 @@ _UPDATES, _BATCH, _LEARNING_RATE = 200, 64, 3e-2
 _PEAKED = 0.1
 _TRIES = 20  # from other initial weights, if ...
 _ENOUGH = 0.98  # ... the pixel with the most attention tells less than this share of the actions
-# With this share, one try is made: in failed rollouts the agent tells no more, since it cannot be seen where it died.
-_MOST = 0.9
 _RARE = 0.1  # moves to a pixel that are rarer are taken for mistakes of the attention
 _ALL = 0.999  # with this share, nothing is fitted again
 
@@ -52,7 +50,7 @@ class AgentFinder(nn.Module):
     def fit(self, transitions: Transitions, rng: torch.Generator) -> None:
         """Fit the attention to transitions, from new weights, unless it tells all their actions already."""
         best, found = self._told(transitions), {name: tensor.clone() for name, tensor in self.state_dict().items()}
-        for _ in range(0 if best >= _ALL else 1 if best >= _MOST else _TRIES):
+        for _ in range(_TRIES if best < _ALL else 0):
             self._fit_once(transitions, rng)
             told = self._told(transitions)
             if told > best:
