@@ -324,13 +324,17 @@ class Learner:
     def _transitions_of(self, labels: Labels) -> Iterator[Row]:
         """Yield the observations before and after each action that changed them, of all trajectories with labels.
 
-        Who acted does not matter here: each action shows where it moves the agent. Where the environment ended the
-        segment, the last action does not show it: the agent may be gone.
+        Who acted does not matter here: each action shows where it moves the agent. Where the environment ended a
+        rollout, its last action does not show it: the agent may be gone.
         """
         symmetries = symmetries_of(self.domain) if self.preset.use.symmetries else ()
-        for segment in chain.from_iterable(trajectory for trajectory, _ in (*labels.hi, *labels.flat)):
-            actions = segment.actions[:-1] if segment.final and not segment.terminated else segment.actions
-            for (before, after), action in zip(pairwise(segment.states), actions, strict=False):
+        for trajectory, _ in (*labels.hi, *labels.flat):
+            steps = [
+                step for segment in trajectory for step in zip(pairwise(segment.states), segment.actions, strict=True)
+            ]
+            if trajectory[-1].final and not any(trajectory is one for one in labels.demonstrations):
+                del steps[-1]
+            for (before, after), action in steps:
                 pair = before.observation, after.observation
                 if np.array_equal(*pair):
                     continue
