@@ -32,9 +32,11 @@ SIZES = {
     "wide": WIDE,
     "narrow": {"width": 768, "height": 1024},
     "landscape": {"width": 844, "height": 390},  # a phone on its side
+    "portrait": {"width": 390, "height": 844},  # a phone held upright
 }
+PHONES = ("landscape", "portrait")
 USUAL = ("light", "wide")
-LOOKS = ["light-wide", "dark-wide", "light-narrow", "dark-narrow", "light-landscape"]
+LOOKS = ["light-wide", "dark-wide", "light-narrow", "dark-narrow", "light-landscape", "light-portrait"]
 KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
 
 
@@ -181,10 +183,10 @@ def take_all(folder: Path, store: Path | None, looks: list[list[str]], only_work
                 gallery = Gallery(folder, served, learner, context.new_page(), suffix)
                 if role == "annotator":
                     gallery.questions()
-                if role == "annotator" and size != "landscape":
+                if role == "annotator" and size not in PHONES:
                     gallery.demonstrations()
                     gallery.practice()
-                elif size != "landscape" and not only_work:
+                elif size not in PHONES and not only_work:
                     gallery.runs(run, [one["id"] for one in there])
                     gallery.people(run)
                 context.close()

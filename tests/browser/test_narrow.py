@@ -55,6 +55,20 @@ def test_runs_fit_a_phone(open_page: Open, learner: Learner) -> None:
         assert too_wide(page) == [], path
 
 
+def test_curves_of_several_runs_take_most_of_a_phone(open_page: Open, learner: Learner) -> None:
+    """Their names are above the chart, so that they leave the width to the lines."""
+    runs = [learner.create_run(f"a run with a long name, number {number}") for number in range(2)]
+    for run in runs:
+        learner.report(run, [True] * 5)
+    page = open_page("/runs/compare?apart=yes&" + "&".join(f"run={run}" for run in runs), size=PHONE)
+    chart, line = page.get_by_role("slider").first, page.locator("svg path.grid").first
+    chart.wait_for()
+    whole, drawn = chart.bounding_box(), line.bounding_box()
+    assert whole
+    assert drawn
+    assert drawn["width"] > 0.7 * whole["width"]
+
+
 def test_people_and_practice_fit_a_phone(open_page: Open) -> None:
     page = open_page("/people", role="admin", size=PHONE)
     person = page.get_by_role("row").nth(1).get_by_role("link")

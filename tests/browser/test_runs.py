@@ -144,6 +144,56 @@ def test_runs_are_found_sorted_and_overlaid(open_page: Open, learner: Learner) -
     expect(other_chart).to_have_attribute("aria-valuemax", "2")
 
 
+def test_runs_are_compared_side_by_side(open_page: Open, learner: Learner) -> None:
+    """With the median and range of those that differ only by seed; what was not reached is more than any number."""
+    config = {"preset": "lean"}
+    runs = [learner.create_run(f"beside {seed}", seed=seed, config=config | {"seed": seed}) for seed in range(2)]
+    worker = open_page(f"/work?run={runs[1]}")
+    (query,) = learner.ask(runs[1], ask("inspect_full"))
+    wait_for_heading(worker, ask("inspect_full")["question"])
+    worker.keyboard.press("y")
+    learner.answer_of(query)
+    for run, succeeds in zip(runs, (False, True), strict=True):
+        learner.report(run, [succeeds] * 100)
+    page = open_page("/runs/compare?" + "&".join(f"run={run}" for run in runs))
+    table = page.get_by_role("region", name="The runs side by side")
+    both, failed, solved = (table.get_by_role("row").nth(place) for place in (1, 2, 3))
+    never = ["not reached 1 to not reached"] * 4
+    expect(both.get_by_role("cell")).to_have_text(
+        ["", "median of 2 runs", "100", "50% 0% to 100%", "0.5 0 to 1", re.compile("s"), *never, ""]
+    )
+    expect(failed.get_by_role("rowheader")).to_have_text("beside 0")
+    expect(failed.get_by_role("cell")).to_have_text(
+        ["0", "running", "100", "0%", "0", "0 s", *["not reached"] * 4, "\u00d7"]
+    )
+    expect(solved.get_by_role("cell")).to_have_text(
+        ["1", "running", "100", "100%", "1", re.compile("s"), *["1"] * 4, "\u00d7"]
+    )
+    failed.get_by_role("link", name="Remove beside 0").click()
+    expect(page.get_by_role("heading", name="1 run overlaid")).to_be_visible()
+    expect(table.get_by_role("row")).to_have_count(2)
+
+
+def test_a_run_shows_what_each_kind_of_query_cost(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("kinds that cost")
+    worker = open_page(f"/work?run={run}")
+    learner.ask(run, ask("inspect_full"))
+    wait_for_heading(worker, ask("inspect_full")["question"])
+    page = open_page(f"/runs/{run}", role="viewer")
+    table = page.get_by_role("region", name="What each kind of query cost")
+    expect(table).to_have_count(0)  # nothing was paid for
+    worker.keyboard.press("n")
+    expect(table.get_by_role("row")).to_have_count(2)
+    expect(table.get_by_role("row").last).to_contain_text("Inspect_FULL")
+    expect(table.get_by_role("cell").nth(0)).to_have_text("1")
+    expect(table.get_by_role("cell").nth(2)).to_have_text("100%")
+    annotator = open_page(f"/runs/{run}")
+    expect(annotator.get_by_role("heading", name="kinds that cost")).to_be_visible()
+    expect(annotator.get_by_role("region", name="What each kind of query cost")).to_have_count(
+        0
+    )  # units are not theirs
+
+
 def test_a_query_is_seen_with_its_trajectory_its_answer_and_its_price(open_page: Open, learner: Learner) -> None:
     run = learner.create_run("watched query")
     learner.ask(run, ask("label_lo"), ask("inspect_full", ordinal=1))
