@@ -36,11 +36,12 @@ TITLES = {
     "crop": "Told what is around it",
     STRUCTURE: "Told all structure",
 }
+ALONE = "first demonstrations alone"
 STYLES = {
     "hg-DAgger": look.Style("#0072B2", "solid", "o"),
     "h-BC": look.Style("#D55E00", (0, (5, 2)), "s"),
     "flat DAgger": look.Style("#009E73", (0, (6, 2, 1, 2)), "^"),
-    "first demonstrations alone": look.Style("#CC79A7", (0, (1, 1.2)), "D"),
+    ALONE: look.Style("#CC79A7", "none", "D"),  # their ends are points
 }
 OTHER = look.Style("#E69F00", (0, (9, 2, 1, 2)), "v")
 WITHOUT_LABELS = {"random actions": (0, (1, 3)), "planner": (0, (4, 4))}
@@ -73,7 +74,7 @@ class Series:
     def label(self) -> str:
         """The name in the legend."""
         if self.algorithm == "h-bc" and self.values:
-            return "first demonstrations alone"
+            return ALONE
         named = {"hg-dagger": "hg-DAgger", "h-bc": "h-BC", "flat-dagger": "flat DAgger"}
         return f"{named.get(self.algorithm, self.algorithm)}{', ' if self.values else ''}{self.values}"
 
@@ -165,7 +166,7 @@ def drawn(groups: Sequence[tuple[Series, Sequence[Run]]], without: Mapping[str, 
         axes.set_title(TITLES[level])
         for series, runs in groups:
             if series.told == level:
-                draw(axes, runs, STYLES.get(series.label, OTHER))
+                draw(axes, runs, STYLES.get(series.label, OTHER), points=series.label == ALONE)
         for what, percent in without.get(level, {}).items():
             axes.axhline(percent, color="black", linewidth=1.2, linestyle=WITHOUT_LABELS[what])
         look.count_axis(axes.xaxis, "Expert cost, units")
@@ -182,13 +183,13 @@ def drawn(groups: Sequence[tuple[Series, Sequence[Run]]], without: Mapping[str, 
     return figure
 
 
-def draw(axes: Axes, runs: Sequence[Run], style: look.Style) -> None:
-    """Draw the runs of a series: as a curve, or as points if each was measured at one cost only."""
-    if any(run.rows[0][1] != run.rows[-1][1] for run in runs):
+def draw(axes: Axes, runs: Sequence[Run], style: look.Style, points: bool) -> None:
+    """Draw the runs of a series: as a curve, or only how each ended, as points."""
+    if not points:
         look.curve(axes, [track(run) for run in runs], style)
         return
-    points = [(units, 100 * successes / n) for _, units, n, successes in (run.rows[-1] for run in runs)]
-    axes.plot(*zip(*points, strict=True), style.marker, color=style.color, markersize=6)
+    ends = [(units, 100 * successes / n) for _, units, n, successes in (run.rows[-1] for run in runs)]
+    axes.plot(*zip(*ends, strict=True), style.marker, color=style.color, markersize=6)
 
 
 def handles(
@@ -197,7 +198,16 @@ def handles(
     """Return the entries of the legend."""
     styles = {series.label: STYLES.get(series.label, OTHER) for series, _ in groups}
     lines = [
-        Line2D([], [], color=one.color, linestyle=one.line, linewidth=1.8, label=label) for label, one in styles.items()
+        Line2D(
+            [],
+            [],
+            color=one.color,
+            linestyle=one.line,
+            linewidth=1.8,
+            marker=one.marker if label == ALONE else "",
+            label=label,
+        )
+        for label, one in styles.items()
     ]
     shown = {series.told for series, _ in groups}
     for what in dict.fromkeys(what for level, acts in without.items() if level in shown for what in acts):
