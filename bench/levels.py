@@ -36,12 +36,11 @@ TITLES = {
     "crop": "Told what is around it",
     STRUCTURE: "Told all structure",
 }
-ALONE = "first demonstrations alone"
 STYLES = {
     "hg-DAgger": look.Style("#0072B2", "solid", "o"),
     "h-BC": look.Style("#D55E00", (0, (5, 2)), "s"),
     "flat DAgger": look.Style("#009E73", (0, (6, 2, 1, 2)), "^"),
-    ALONE: look.Style("#CC79A7", "none", "D"),  # their ends are points
+    "first demonstrations alone": look.Style("#CC79A7", "none", "D"),
 }
 OTHER = look.Style("#E69F00", (0, (9, 2, 1, 2)), "v")
 WITHOUT_LABELS = {"random actions": (0, (1, 3)), "planner": (0, (4, 4))}
@@ -74,7 +73,7 @@ class Series:
     def label(self) -> str:
         """The name in the legend."""
         if self.algorithm == "h-bc" and self.values:
-            return ALONE
+            return "first demonstrations alone"
         named = {"hg-dagger": "hg-DAgger", "h-bc": "h-BC", "flat-dagger": "flat DAgger"}
         return f"{named.get(self.algorithm, self.algorithm)}{', ' if self.values else ''}{self.values}"
 
@@ -166,7 +165,7 @@ def drawn(groups: Sequence[tuple[Series, Sequence[Run]]], without: Mapping[str, 
         axes.set_title(TITLES[level])
         for series, runs in groups:
             if series.told == level:
-                draw(axes, runs, STYLES.get(series.label, OTHER), points=series.label == ALONE)
+                draw(axes, runs, STYLES.get(series.label, OTHER))
         for what, percent in without.get(level, {}).items():
             axes.axhline(percent, color="black", linewidth=1.2, linestyle=WITHOUT_LABELS[what])
         look.count_axis(axes.xaxis, "Expert cost, units")
@@ -183,9 +182,9 @@ def drawn(groups: Sequence[tuple[Series, Sequence[Run]]], without: Mapping[str, 
     return figure
 
 
-def draw(axes: Axes, runs: Sequence[Run], style: look.Style, points: bool) -> None:
-    """Draw the runs of a series: as a curve, or only how each ended, as points."""
-    if not points:
+def draw(axes: Axes, runs: Sequence[Run], style: look.Style) -> None:
+    """Draw the runs of a series: as a curve, or, if its style has no line, only how each ended, as points."""
+    if style.line != "none":
         look.curve(axes, [track(run) for run in runs], style)
         return
     ends = [(units, 100 * successes / n) for _, units, n, successes in (run.rows[-1] for run in runs)]
@@ -198,16 +197,9 @@ def handles(
     """Return the entries of the legend."""
     styles = {series.label: STYLES.get(series.label, OTHER) for series, _ in groups}
     lines = [
-        Line2D(
-            [],
-            [],
-            color=one.color,
-            linestyle=one.line,
-            linewidth=1.8,
-            marker=one.marker if label == ALONE else "",
-            label=label,
-        )
+        Line2D([], [], color=one.color, linestyle=one.line, linewidth=1.8, marker=marker, label=label)
         for label, one in styles.items()
+        for marker in ["" if one.line != "none" else one.marker]
     ]
     shown = {series.told for series, _ in groups}
     for what in dict.fromkeys(what for level, acts in without.items() if level in shown for what in acts):

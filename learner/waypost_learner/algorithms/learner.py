@@ -325,7 +325,8 @@ class Learner:
         """Yield the observations before and after each action that changed them, of all trajectories with labels.
 
         Who acted does not matter here: each action shows where it moves the agent. Where the environment ended a
-        rollout, its last action does not show it: the agent may be gone.
+        rollout, its last action does not show it: the agent may be gone. Demonstrations of a flat policy are treated
+        as rollouts, since labels do not tell them apart.
         """
         symmetries = symmetries_of(self.domain) if self.preset.use.symmetries else ()
         for trajectory, _ in (*labels.hi, *labels.flat):

@@ -1,8 +1,7 @@
 // Several runs side by side: what each cost and reached, and the median and range of those that differ only by seed.
 import type { Costs, Curves, Run } from '../../api/types';
+import type { Target } from './forecast';
 import { median } from './overlay';
-
-export const LEVELS = ['0.8', '0.9', '0.95', '0.99'] as const;
 
 /** A run as it is compared. */
 export interface Compared {
@@ -18,13 +17,13 @@ export interface Spread {
   readonly high: number;
 }
 
-/** Return the median and range of values. What is null was not reached, so it is more than any number. */
+/** Return the median (NaN for no values) and range. What is null was not reached, so it is more than any number. */
 export function spreadOf(values: readonly (number | null)[]): Spread {
   const all = values.map((value) => value ?? Infinity);
   return { median: median(all), low: Math.min(...all), high: Math.max(...all) };
 }
 
-/** Return the units after which a run first reached each level of success; null for a level that it did not reach. */
-export function unitsTo({ costs }: Compared): (number | null)[] {
-  return LEVELS.map((level) => costs.first_at[level]?.cost ?? null);
+/** Return the units after which a run first reached a level of success; null if it did not. */
+export function unitsTo(level: Target, { costs }: Compared): number | null {
+  return costs.first_at[level]?.cost ?? null;
 }
