@@ -1,7 +1,8 @@
 """Measures the success of a run's policy on other kinds of mazes: `python bench/other_mazes.py RUN --store FILE`.
 
-The script uses the unseen mazes of both sets, and 300 mazes of each other kind, which it draws with a fixed seed. It
-prints a table and asserts nothing.
+The script uses the unseen mazes of both sets, and 300 mazes of each other kind, which it draws with the given seed.
+With `--values fields.far=96`, a policy of the preset `general` spreads its fields that far. The script prints a table
+and asserts nothing.
 """
 
 import argparse
@@ -13,9 +14,7 @@ from numpy.typing import NDArray
 
 from waypost_learner.domains.maze.files import save_mazes
 from waypost_learner.domains.maze.maze import Maze, closed_rooms, distances_from, room_of, walls
-from waypost_learner.runs import checkpoints
-from waypost_learner.runs.evaluation import evaluate
-from waypost_learner.runs.setup import build_learner
+from waypost_learner.runs.evaluation import evaluate, learner_of
 
 N = 300  # mazes of each kind
 _WALLS = list(walls())
@@ -54,9 +53,9 @@ def several_doors(rng: np.random.Generator) -> NDArray[np.bool_]:
     return rng.random((len(_WALLS), 3)) < 0.2
 
 
-def draw(doors: Doors, least: int, seed: int) -> Iterator[Maze]:
+def draw(doors: Doors, least: int, number: int, seed: int) -> Iterator[Maze]:
     """Yield mazes with random start and goal whose shortest path has at least `least` steps, without end."""
-    rng = np.random.default_rng([seed, least])
+    rng = np.random.default_rng([number, least, seed])
     while True:
         lava = closed_rooms()
         for is_open, (*_, cells) in zip(doors(rng), _WALLS, strict=True):
@@ -73,14 +72,16 @@ def main() -> None:
     parser.add_argument("run", nargs="?")
     parser.add_argument("--store", type=Path, default=Path("waypost.db"))
     parser.add_argument("--checkpoints", type=Path, help="the folder of checkpoints; default: beside the store")
+    parser.add_argument("--values", help="values that replace the run's own, as for `waypost evaluate`")
+    parser.add_argument("--seed", type=int, default=0, help="the seed of the other kinds of mazes")
+    parser.add_argument("--threads", type=int, help="CPU threads; one per core by default")
     parser.add_argument("--save", type=Path, help="a folder to write the sets to, as .npz")
     arguments = parser.parse_args()
     if arguments.run is None:
         parser.exit(0, "Nothing was measured. Give the id of a run that has a checkpoint.\n")
     folder = arguments.checkpoints or arguments.store.with_name(f"{arguments.store.name}.checkpoints")
     path = folder / f"{arguments.run}.safetensors"
-    learner = build_learner(checkpoints.read_header(path).config, threads=None)
-    checkpoints.load(path, learner)
+    learner, _ = learner_of(path, arguments.values, arguments.threads)
     kinds: dict[str, tuple[Doors, int]] = {
         "many paths, any length": (many_ways, 1),
         "many paths, at least 20 steps": (many_ways, 20),
@@ -90,7 +91,7 @@ def main() -> None:
     }
     sets = {f"{name}, unseen": list(learner.domain.instances(name).test) for name in ("random", "corners")}
     for number, (name, (doors, least)) in enumerate(kinds.items()):
-        drawn = draw(doors, least, number)
+        drawn = draw(doors, least, number, arguments.seed)
         sets[name] = [next(drawn) for _ in range(N)]
         if arguments.save is not None:
             arguments.save.mkdir(parents=True, exist_ok=True)

@@ -157,6 +157,10 @@ def evaluate(
         str | None, typer.Option(help="Instances to evaluate on. Default: the run's own unseen ones.")
     ] = None,
     episodes: Annotated[int, typer.Option(min=0, help="How many episodes; 0 for one on each instance.")] = 0,
+    values: Annotated[
+        list[str] | None,
+        typer.Option(help='Values that replace the run\'s own: "fields.far=96"; can be repeated.'),
+    ] = None,
     store: StoreOption = None,
     server: ServerOption = None,
     checkpoints: CheckpointsOption = None,
@@ -168,7 +172,7 @@ def evaluate(
         from waypost_learner.runs.evaluation import evaluate_run
 
         path = checkpoint_folder(checkpoints, store, server) / f"{run}.safetensors"
-        found = evaluate_run(path, instances, episodes, threads)
+        found = evaluate_run(path, instances, episodes, threads, " ".join(values) if values else None)
     if as_json:
         typer.echo(json.dumps({**vars(found), "success_rate": found.success_rate}))
     else:

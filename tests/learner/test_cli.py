@@ -137,6 +137,17 @@ def test_an_evaluation_takes_every_unseen_instance_once_unless_told_otherwise(tr
     assert re.fullmatch(r"\d+ of 52 episodes succeeded: \d+\.\d%\n", people.stdout)
 
 
+def test_a_run_is_evaluated_with_other_values_than_its_own(trained: tuple[Path, str]) -> None:
+    file, line = trained
+    evaluation = ["evaluate", json.loads(line)["run"], "--store", str(file), "--json"]
+    own = json.loads(waypost(*evaluation).stdout)
+    short = json.loads(waypost(*evaluation, "--values", "h_hi=1", "--values", "h_lo=1").stdout)
+    assert short["successes"] < own["successes"]  # one action, instead of as many as the run's episodes have
+    assert json.loads(waypost(*evaluation).stdout) == own
+    assert "leave out values" in refused(*evaluation, "--values", "network.hidden=8")
+    assert "'far'" in refused(*evaluation, "--values", "far=8")
+
+
 def test_a_run_is_trained_on_the_mazes_of_a_file() -> None:
     save_mazes(Path("few.npz"), list(maze_set("corners")[0][:4]))
     arguments = ["--preset", "tiny", "--instances", "few.npz", "--episodes", "2", "--store", "s.db", "--json"]

@@ -1,7 +1,7 @@
 """Measure the success of policies on given instances, all rolled out in parallel."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +9,7 @@ from waypost_learner.algorithms.learner import Learner
 from waypost_learner.rollout import streams
 from waypost_learner.rollout.rollout import run_all
 from waypost_learner.runs import checkpoints
+from waypost_learner.runs.config import TrainConfig
 from waypost_learner.runs.setup import build_learner
 
 BATCH = 256  # rollouts
@@ -54,7 +55,33 @@ def attempt(learner: Learner, instances: Sequence[Any], stream: int, numbers: Se
     return [simulator.succeeded for simulator in simulators]
 
 
-def evaluate_run(path: Path, instances: str | None, episodes: int, threads: int | None) -> Evaluation:
+def learner_of(path: Path, values: str | None, threads: int | None) -> tuple[Learner, TrainConfig]:
+    """Return a learner with the policies of a checkpoint, and the configuration of its run.
+
+    Args:
+        path: the checkpoint.
+        values: values that replace the run's own, such as "fields.far=96"; the run's own if None.
+        threads: CPU threads; one per core if None.
+
+    Raises:
+        ValueError: the checkpoint does not exist or does not fit the values, or a value does not exist.
+    """
+    config = checkpoints.read_header(path).config
+    if values is not None:
+        config = replace(config, values=" ".join([*(config.values or "").split(), values]))
+    learner = build_learner(config, threads)
+    try:
+        checkpoints.load(path, learner)
+    except ValueError as error:
+        if values is None:
+            raise
+        raise ValueError(f"{path} does not fit {values!r}: leave out values that change its networks") from error
+    return learner, config
+
+
+def evaluate_run(
+    path: Path, instances: str | None, episodes: int, threads: int | None, values: str | None = None
+) -> Evaluation:
     """Evaluate the policies of a checkpoint on unseen instances.
 
     Args:
@@ -62,12 +89,11 @@ def evaluate_run(path: Path, instances: str | None, episodes: int, threads: int 
         instances: a name of instances, or a file; the run's own instances if None.
         episodes: the number of episodes; 0 for one on each instance.
         threads: CPU threads; one per core if None.
+        values: values that replace the run's own (`learner_of`).
 
     Raises:
-        ValueError: the checkpoint or the instances do not exist.
+        ValueError: the checkpoint or the instances do not exist, or the values do not fit.
     """
-    header = checkpoints.read_header(path)
-    learner = build_learner(header.config, threads)
-    checkpoints.load(path, learner)
-    chosen = learner.domain.instances(instances or header.config.instances)
+    learner, config = learner_of(path, values, threads)
+    chosen = learner.domain.instances(instances or config.instances)
     return evaluate(learner, chosen.test, episodes or len(chosen.test))
