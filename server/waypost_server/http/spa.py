@@ -1,5 +1,8 @@
 """The files of the web app. Files with a hash in their name are cached forever; other paths get index.html."""
 
+import gzip
+from functools import cache
+from mimetypes import guess_type
 from pathlib import Path
 
 from fastapi import FastAPI, HTTPException, Request
@@ -9,6 +12,9 @@ MISSING = (
     "Waypost is running, but its web app is not built; `make web` builds it. The API is at /api/v1; "
     "/api/docs describes it.\n"
 )
+
+
+COMPRESSED = {".js", ".css"}
 
 
 def find() -> Path | None:
@@ -32,12 +38,22 @@ def install(app: FastAPI, folder: Path | None) -> None:
             return PlainTextResponse(MISSING, 200 if path == "" else 404)
         found = _file(root, path)
         if found is not None:
-            hashed = path.startswith("assets/")
-            caching = "public, max-age=31536000, immutable" if hashed else "no-cache"
-            return FileResponse(found, headers={"Cache-Control": caching})
+            if not path.startswith("assets/"):
+                return FileResponse(found, headers={"Cache-Control": "no-cache"})
+            headers = {"Cache-Control": "public, max-age=31536000, immutable"}
+            if found.suffix in COMPRESSED and "gzip" in request.headers.get("Accept-Encoding", ""):
+                headers |= {"Content-Encoding": "gzip", "Vary": "Accept-Encoding"}
+                return Response(_gzipped(found), headers=headers, media_type=guess_type(found)[0])
+            return FileResponse(found, headers=headers)
         if path.startswith("assets/"):
             raise HTTPException(404, f"There is no {request.url.path}.")
         return FileResponse(root / "index.html", headers={"Cache-Control": "no-cache"})
+
+
+@cache
+def _gzipped(file: Path) -> bytes:
+    """Compress a file once for all requests: with a hash in its name, it never changes."""
+    return gzip.compress(file.read_bytes())
 
 
 def _file(root: Path, path: str) -> Path | None:

@@ -181,6 +181,10 @@ def test_hashed_assets_are_cached_for_good_and_compressed(paged: Service) -> Non
     assert "immutable" in reply.headers["cache-control"]
     assert "javascript" in reply.headers["content-type"]
     assert reply.headers["content-encoding"] == "gzip"
+    plain = paged.client.get("/assets/index-abc123.js", headers={"Accept-Encoding": "identity"})
+    assert "content-encoding" not in plain.headers
+    assert reply.content == plain.content
+    assert reply.headers["vary"] == plain.headers["vary"] == "Accept-Encoding"
     assert paged.client.get("/assets/index-gone.js").status_code == 404
 
 

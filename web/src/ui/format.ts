@@ -1,17 +1,27 @@
 // Numbers, times, counts and lists as text, in the page's language and as its region writes them.
 import { locale, t } from '../language/language';
 
-const NUMBER = new Intl.NumberFormat(locale, { maximumFractionDigits: 2 });
-const PERCENT = new Intl.NumberFormat(locale, { style: 'percent', maximumFractionDigits: 1 });
+// A formatter takes a browser up to 20 ms to make. Each is made when the first text needs it, not when the page starts.
+const numbers = once(() => new Intl.NumberFormat(locale, { maximumFractionDigits: 2 }));
+const percents = once(() => new Intl.NumberFormat(locale, { style: 'percent', maximumFractionDigits: 1 }));
+const days = once(() => new Intl.DateTimeFormat(locale, { dateStyle: 'medium' }));
+const moments = once(() => new Intl.DateTimeFormat(locale, { dateStyle: 'medium', timeStyle: 'medium' }));
+const alternatives = once(() => new Intl.ListFormat(locale, { type: 'disjunction' }));
+const enumerations = once(() => new Intl.ListFormat(locale, { type: 'unit', style: 'short' }));
+
+function once<T>(make: () => T): () => T {
+  let made: T | undefined;
+  return () => (made ??= make());
+}
 
 /** Return a number as text: 1,420. */
 export function number(value: number): string {
-  return NUMBER.format(value);
+  return numbers().format(value);
 }
 
 /** Return a share in percent: 84.5%; a dash for null. */
 export function percent(value: number | null): string {
-  return value === null ? '–' : PERCENT.format(value);
+  return value === null ? '–' : percents().format(value);
 }
 
 /** Return an amount in units: 1 unit, 12 units. */
@@ -48,30 +58,22 @@ export function ago(then: number, now: number): string {
   return count(Math.floor(passed / 86_400), ['# d ago', '# d ago']);
 }
 
-const DAY = new Intl.DateTimeFormat(locale, { dateStyle: 'medium' });
-
 /** Return the day of a time: 3 Mar 2026. */
 export function day(at: number): string {
-  return DAY.format(at * 1000);
+  return days().format(at * 1000);
 }
-
-const CLOCK = new Intl.DateTimeFormat(locale, { dateStyle: 'medium', timeStyle: 'medium' });
 
 /** Return a time as text: 3 Mar 2026, 14:05:09. */
 export function moment(at: number): string {
-  return CLOCK.format(at * 1000);
+  return moments().format(at * 1000);
 }
-
-const ALTERNATIVES = new Intl.ListFormat(locale, { type: 'disjunction' });
 
 /** Return alternatives as text: north, east or south. */
 export function either(names: readonly string[]): string {
-  return ALTERNATIVES.format(names);
+  return alternatives().format(names);
 }
-
-const ENUMERATION = new Intl.ListFormat(locale, { type: 'unit', style: 'short' });
 
 /** Return names one after another: north, east, south. */
 export function listed(names: readonly string[]): string {
-  return ENUMERATION.format(names);
+  return enumerations().format(names);
 }
