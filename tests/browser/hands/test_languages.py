@@ -124,7 +124,8 @@ def test_worked_examples_are_german(open_page: Open, empty: Served) -> None:
 
 
 def test_why_the_server_refuses_is_german(open_page: Open, learner: Learner, complaints: Complaints) -> None:
-    complaints.expect("409", "404")
+    complaints.expect("409")
+    complaints.expect("401")
     run = learner.create_run("endet bald")
     learner.ask(run, ask("inspect_full"))
     page = open_page(f"/work?run={run}", locale=GERMAN)
@@ -133,8 +134,8 @@ def test_why_the_server_refuses_is_german(open_page: Open, learner: Learner, com
     page.keyboard.press("f")
     refused = "Der Server hat diese Antwort nicht angenommen: Der Lauf ist beendet und mit ihm seine offenen Fragen."
     expect(page.get_by_text(refused)).to_be_visible()
-    page.goto("/runs/gibt-es-nicht")
-    expect(page.get_by_text("Das gibt es nicht, oder es wurde gelöscht.")).to_be_visible()
+    page.goto("/login#falsch")
+    expect(page.get_by_text("Bitte prüfen, ob der ganze Link kopiert ist.")).to_be_visible()
     check(page)
 
 
