@@ -140,7 +140,7 @@ class Gallery:
             self.visit("overlay", f"/runs/compare?{'&'.join(f'run={one}' for one in others)}", there_is_a_chart)
 
     def practice(self) -> None:
-        """Practice: the start, a worked example of the first practice, and feedback."""
+        """Practice: the start, a worked example of the first practice, feedback, and a demonstration."""
         self.visit("practice", "/practice", there_is_a_heading)
         self.visit("practice-example", "/practice?first=yes", there_is_a_heading)
         self.page.keyboard.press("Enter")
@@ -148,6 +148,12 @@ class Gallery:
         self.page.keyboard.press("n")
         wait_for_heading(self.page, "Not right")
         self.take("practice-feedback")
+        while not self.page.get_by_role("list", name="Moves").is_visible():
+            asks = self.page.get_by_role("button", name="Skip", exact=True).is_visible()
+            self.page.keyboard.press("Shift+S" if asks else "Enter")
+        for _ in range(4):
+            self.page.keyboard.press("ArrowDown")
+        self.take("practice-demonstration")
 
     def people(self, run: str) -> None:
         """Accounts, an account, one's own, gold queries, and the way in."""

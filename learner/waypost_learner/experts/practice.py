@@ -1,4 +1,7 @@
-"""Make practice queries: rollouts of a learner that sometimes errs, with the right answers from the domain's oracle."""
+"""Make practice queries: rollouts of a learner that sometimes errs, with the right answers from the domain's oracle.
+
+A file of them has demonstrations to look at, too.
+"""
 
 import json
 from base64 import b64encode
@@ -10,10 +13,11 @@ from typing import Any
 import numpy as np
 
 from waypost import wire
-from waypost.domains import Domain, oracle_of
+from waypost.domains import Domain, Oracle, oracle_of
 from waypost.trajectory import Segment, Trajectory, n_steps
 from waypost_learner.algorithms.queries import InspectFull, InspectLo, LabelFull, LabelHi, LabelLo, Query
 from waypost_learner.experts.solutions import solve
+from waypost_learner.experts.worked import demonstrations
 from waypost_learner.remote.camera import Camera
 from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
@@ -43,6 +47,8 @@ class Exercise:
 def practice(domain: Domain, instances: str, seed: int) -> str:
     """Return the text of a file of practice queries: two of each kind, if the rollouts contain suitable ones.
 
+    It has a demonstration, too, for each way in which one is asked for, if the oracle can give one.
+
     Args:
         domain: the domain; its oracle gives the right answers.
         instances: the name of a set of instances, or a file.
@@ -51,20 +57,25 @@ def practice(domain: Domain, instances: str, seed: int) -> str:
     Raises:
         ValueError: the domain has no oracle, or no rollout is suitable.
     """
-    rollouts = list(islice(_rollouts(domain, instances, seed), CANDIDATES))
+    oracle = oracle_of(domain)
+    if oracle is None:
+        raise ValueError(f"the domain {domain.name!r} has no oracle, so its right answers are not known")
+    rollouts = list(islice(_rollouts(domain, oracle, instances, seed), CANDIDATES))
     picks = [pick for pick in _picks() if domain.subgoals or pick.flat]
     found = [_exercise(domain, rollouts, place, pick) for place, pick in enumerate(picks)]
     exercises = [one for one in found if one is not None]
     if not exercises:
         raise ValueError("no rollout is suitable for practice: try another --seed")
+    shown = list(demonstrations(domain, oracle, [(one.instance, one.sigma) for one in rollouts]))
     frames: dict[str, bytes] = {}
-    for one in exercises:
-        frames |= one.frames
+    for taken in [*(one.frames for one in exercises), *(taken for _, taken in shown)]:
+        frames |= taken
     pictures = [json.dumps({"hash": one, "png": b64encode(file).decode()}) for one, file in frames.items()]
     parts = [f'"vocabulary": {vocabulary(domain).model_dump_json()}']
     if pictures:
         parts.append(f'"frames": {_lines(pictures)}')
     parts.append(f'"exercises": {_lines([json.dumps(one.content, ensure_ascii=False) for one in exercises])}')
+    parts.append(f'"demonstrations": {_lines([one.model_dump_json() for one, _ in shown])}')
     return "{" + ",\n".join(parts) + "}\n"
 
 
@@ -72,11 +83,9 @@ def _lines(values: Sequence[str]) -> str:
     return "[\n" + ",\n".join(values) + "\n]"
 
 
-def _rollouts(domain: Domain, instances: str, seed: int) -> Iterator[Rollout]:
+def _rollouts(domain: Domain, oracle: Oracle, instances: str, seed: int) -> Iterator[Rollout]:
     """Yield rollouts of a learner that mostly follows the oracle."""
-    oracle, rng, simulator = oracle_of(domain), np.random.default_rng(seed), Simulator(domain)
-    if oracle is None:
-        raise ValueError(f"the domain {domain.name!r} has no oracle, so its right answers are not known")
+    rng, simulator = np.random.default_rng(seed), Simulator(domain)
     train = domain.instances(instances).train
     while True:
         instance = train[int(rng.integers(len(train)))]

@@ -4,8 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from waypost.wire.answers import Answer
-from waypost.wire.queries import Ask
+from waypost.wire.answers import Answer, HierDemoAnswer
+from waypost.wire.queries import Ask, AskHierDemo
 from waypost.wire.runs import Vocabulary
 from waypost.wire.words import Kind, Message, Name, Verdict
 
@@ -25,6 +25,8 @@ __all__ = [
     "Practice",
     "PracticeAnswer",
     "PracticeQuery",
+    "Reason",
+    "WorkedDemonstration",
     "WorkedExample",
 ]
 
@@ -128,11 +130,19 @@ class PracticeQuery(Message):
     ask: Ask
 
 
+Reason = Literal["accomplished", "not_accomplished", "shortest", "no_way"]
+"""Why labels are correct; `Feedback.reasons` says what each means."""
+
+
 class Feedback(Message):
     """The server's reply to a practice answer: each label compared with the correct ones."""
 
     marks: list[Mark]
-    reasons: list[str] = Field(description="For each label, the reason why the correct labels are correct.")
+    reasons: list[Reason] = Field(
+        description="For each label, why the correct labels are correct. `accomplished`, `not_accomplished`: the goal "
+        "is, or is not, accomplished in this state. `shortest`: they are on a shortest path to it. `no_way`: nothing "
+        "leads to it from this state. The goal is the segment's subgoal in a Label_LO or an Inspect_LO, else the task."
+    )
     is_right: bool = Field(description="Whether all labels are correct.")
 
 
@@ -143,6 +153,16 @@ class WorkedExample(Message):
     feedback: Feedback = Field(description="A correct answer, and the reason for each label.")
 
 
+class WorkedDemonstration(Message):
+    """A demonstration as a worked example, sent by the server. To practice one, a learner's environment is needed."""
+
+    ask: AskHierDemo
+    answer: HierDemoAnswer = Field(
+        description="A good demonstration, with the states that were seen. The episode ends with it, unless it plays "
+        "on where the learner failed."
+    )
+
+
 class Practice(Message):
     """The practice queries of a domain in their order, sent by the server. Practice stores and costs nothing."""
 
@@ -150,6 +170,9 @@ class Practice(Message):
     queries: list[PracticeQuery]
     examples: list[WorkedExample] = Field(
         description="The last query of each kind, for the kinds that have several queries."
+    )
+    demonstrations: list[WorkedDemonstration] = Field(
+        description="At most one for each way in which demonstrations are asked for."
     )
     domains: list[str] = Field(description="All domains that can be practiced on this server.")
 

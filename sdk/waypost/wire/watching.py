@@ -6,7 +6,7 @@ from pydantic import Field
 
 from waypost.wire.answers import Answer
 from waypost.wire.comments import Comment
-from waypost.wire.words import Kind, Message, QueryState
+from waypost.wire.words import DemoForm, Kind, Message, QueryState
 
 __all__ = [
     "AssignmentState",
@@ -171,6 +171,10 @@ class RunOutlook(Message):
     name: str = Field(description="The name of the run.")
     domain: str = Field(description="The name of the run's domain.")
     kinds: list[Kind] = Field(description="The kinds of query that the learner asked lately.")
+    demonstrations: list[DemoForm] = Field(
+        description="How it asked for its last demonstrations: `hier_demo`, segments with subgoals; `flat_demo`, "
+        "actions only; `play_on`, from a state where it failed."
+    )
     doing: Doing = Field(
         description="What the learner does: it waits for answers (`asking`), learns from them (`training`), or acts "
         "until it has something to ask (`rolling_out`); or the run is paused or finished."

@@ -5,7 +5,9 @@ from typing import Annotated, Literal, get_args
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, SerializeAsAny
 
 __all__ = [
+    "DEMO_FORMS",
     "KINDS",
+    "DemoForm",
     "Disagreement",
     "FrameHash",
     "GoldRate",
@@ -26,6 +28,9 @@ __all__ = [
 
 Kind = Literal["hier_demo", "inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
+DemoForm = Literal["hier_demo", "flat_demo", "play_on"]
+"""How a demonstration is asked for: hierarchical, flat, or from a state where the learner failed."""
+DEMO_FORMS: tuple[DemoForm, ...] = get_args(DemoForm)
 Verdict = Literal["pass", "fail"]
 RunState = Literal["running", "paused", "finished"]
 QueryState = Literal["open", "leased", "answered", "cancelled"]

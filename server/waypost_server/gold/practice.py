@@ -1,4 +1,4 @@
-"""Practice queries, read from files that `waypost practice` wrote: one for each domain."""
+"""Practice queries and worked examples, read from files that `waypost practice` wrote: one for each domain."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -21,7 +21,7 @@ SHIPPED = Path(__file__).with_name("practice.json")
 class Exercise(wire.KnownAsk):
     """A practice query with its known answer and a reason for each label."""
 
-    reasons: list[str]
+    reasons: list[wire.Reason]
 
 
 class PracticeFile(BaseModel):
@@ -30,6 +30,7 @@ class PracticeFile(BaseModel):
     vocabulary: wire.Vocabulary
     frames: list[wire.Frame] = []  # the pictures of all states, for a domain without a renderer
     exercises: list[Exercise]
+    demonstrations: list[wire.WorkedDemonstration]
 
 
 class BadPractice(Exception):
@@ -51,6 +52,8 @@ class PracticeSet:
             self.frames = frames.decode(self._file.frames, most_frame_bytes)
             for place, one in enumerate(self._file.exercises):
                 self._check(one, ["exercises", place])
+            for place, shown in enumerate(self._file.demonstrations):
+                self._check_shown(shown, ["demonstrations", place])
         except (OSError, ValidationError, errors.Unprocessable) as error:
             reason = str(error).partition("\n")[0]
             raise BadPractice(
@@ -60,17 +63,34 @@ class PracticeSet:
         self.ids = range(first, first + len(self._file.exercises))
 
     def _check(self, one: Exercise, at: errors.Location) -> None:
-        checks.check_ask(one.ask, self._names, [*at, "ask"])
-        for segment in (*getattr(one.ask, "segments", ()), *one.ask.context):
-            if absent := set(segment.frames) - set(self.frames):
-                raise errors.Unprocessable([*at, "ask"], f"frame {min(absent)} is not in the file")
+        self._check_ask(one.ask, [*at, "ask"])
         scoring.check(one.ask, one.known, self._names, [*at, "known"])
+
+    def _check_shown(self, one: wire.WorkedDemonstration, at: errors.Location) -> None:
+        self._check_ask(one.ask, [*at, "ask"])
+        checks.check_answer(one.ask, one.answer, self._names, [*at, "answer"])
+        if one.answer.replay is None or not one.answer.replay.states:
+            raise errors.Unprocessable([*at, "answer", "replay"], "has no states, so there is nothing to show")
+        self._check_frames(one.answer.replay.frames, [*at, "answer", "replay"])
+
+    def _check_ask(self, ask: wire.Ask, at: errors.Location) -> None:
+        checks.check_ask(ask, self._names, at)
+        for segment in (*getattr(ask, "segments", ()), *ask.context):
+            self._check_frames(segment.frames, at)
+
+    def _check_frames(self, hashes: Sequence[str], at: errors.Location) -> None:
+        if absent := set(hashes) - set(self.frames):
+            raise errors.Unprocessable(at, f"frame {min(absent)} is not in the file")
 
     def questions(self, domains: Sequence[str] = ()) -> wire.Practice:
         """Return the queries without their known answers, except those of the examples."""
         asks = [wire.PracticeQuery(id=n, ask=one.ask) for n, one in zip(self.ids, self._file.exercises, strict=True)]
         return wire.Practice(
-            vocabulary=self._file.vocabulary, queries=asks, examples=self._examples(), domains=list(domains)
+            vocabulary=self._file.vocabulary,
+            queries=asks,
+            examples=self._examples(),
+            demonstrations=self._file.demonstrations,
+            domains=list(domains),
         )
 
     def _examples(self) -> list[wire.WorkedExample]:

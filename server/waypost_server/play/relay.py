@@ -55,8 +55,8 @@ class Relay:
 
 
 async def close(socket: WebSocket, refusal: Refusal) -> None:
-    """Close a socket with a refusal: the close code is 4000 + its status, the reason its text."""
-    reason = refusal.detail.encode()[:REASON_BYTES].decode(errors="ignore")
+    """Close a socket with a refusal: the close code is 4000 + its status, the reason its name and its text."""
+    reason = f"{refusal.name}: {refusal.detail}".encode()[:REASON_BYTES].decode(errors="ignore")
     with suppress(WebSocketDisconnect, RuntimeError):  # closed already
         await socket.close(4_000 + refusal.status, reason)
 

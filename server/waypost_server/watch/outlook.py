@@ -20,6 +20,7 @@ from waypost_server.runs.service import vocabulary_of
 MOST_RUNS = 6
 MOST_EVENTS = 1_000  # of a run, newest first, from which its waits and its kinds of query are known
 MOST_WAITS = 20  # the newest ones, of which the median is taken
+MOST_DEMONSTRATIONS = 20  # the newest ones, of which it is known how they were asked for
 MOST_OPEN = 1_000  # more queries are not counted
 
 _UNANSWERED = or_(queries.c.state == "open", queries.c.state == "leased")
@@ -44,17 +45,33 @@ def _of_run(tx: Tx, row: Row[Any]) -> wire.RunOutlook:
     n_open = _count(tx, runs.c.id == row.id)
     waits = list(islice(_waits(changes, n_open), MOST_WAITS))
     names = vocabulary_of(row.vocabulary)
-    asked = {json.loads(change.data)["kind"] for change in changes if change.event == "asked"}
+    asked = [json.loads(change.data) for change in changes if change.event == "asked"]
+    kinds = {one["kind"] for one in asked}
+    demonstrations = [one["query"] for one in asked if one["kind"] == "hier_demo"][:MOST_DEMONSTRATIONS]
     return wire.RunOutlook(
         run=row.id,
         name=row.name,
         domain=names.domain,
-        kinds=[kind for kind in wire.KINDS if kind in asked],
+        kinds=[kind for kind in wire.KINDS if kind in kinds],
+        demonstrations=_forms(tx, demonstrations),
         doing=_doing(row.state, n_open, changes),
         seconds=max(0.0, tx.now - changes[0].created_at) if changes else 0.0,
         usual_seconds=statistics.median(waits) if waits else None,
         open=_tens(n_open),
     )
+
+
+def _forms(tx: Tx, asked: Sequence[int]) -> list[wire.DemoForm]:
+    """Return how demonstrations were asked for."""
+    found = tx.conn.execute(select(queries.c.ask).where(queries.c.id.in_(asked))).scalars()
+    forms = {_form(wire.AskHierDemo.model_validate_json(one)) for one in found}
+    return [form for form in wire.DEMO_FORMS if form in forms]
+
+
+def _form(ask: wire.AskHierDemo) -> wire.DemoForm:
+    if ask.flat:
+        return "flat_demo"
+    return "play_on" if ask.context else "hier_demo"
 
 
 def _count(tx: Tx, *conditions: Any) -> int:

@@ -10,6 +10,8 @@ from tests.browser.conftest import WEB, Open
 from tests.browser.kit import Complaints, Learner, ask, begun_run, wait_for_heading
 from tests.browser.test_narrow import PHONE, too_wide
 
+from waypost_server.serving import Served
+
 GERMAN = "de-DE"
 KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
 READ = """() => [...document.querySelectorAll('body *')].flatMap(one => [
@@ -95,6 +97,7 @@ def test_practice_and_people_are_german(open_page: Open) -> None:
     wait_for_heading(page, ask("inspect_full")["question"])
     page.keyboard.press("f")
     wait_for_heading(page, "Nicht richtig")
+    expect(page.get_by_text("Die Aufgabe ist im letzten Zustand gelöst.")).to_be_visible()
     check(page)
     page.goto("/people")
     page.get_by_role("row").nth(1).get_by_role("link").click()
@@ -102,6 +105,37 @@ def test_practice_and_people_are_german(open_page: Open) -> None:
     check(page)
     page.goto("/people/audit")
     page.get_by_role("row", name="hat sich angemeldet").first.wait_for()
+    check(page)
+
+
+def test_worked_examples_are_german(open_page: Open, empty: Served) -> None:
+    page = open_page("/practice?first=yes", at=empty, locale=GERMAN, motion="reduce")
+    for _ in range(5):
+        page.get_by_text("Gelöstes Beispiel").wait_for()
+        check(page)
+        page.keyboard.press("Enter")
+        page.get_by_role("button", name="Überspringen", exact=True).wait_for()
+        page.keyboard.press("Shift+S")
+    while not page.get_by_role("heading", name="0 von 5 richtig").is_visible():
+        for _ in range(6):
+            page.keyboard.press("ArrowDown")
+            check(page)
+        page.keyboard.press("Enter")
+
+
+def test_why_the_server_refuses_is_german(open_page: Open, learner: Learner, complaints: Complaints) -> None:
+    complaints.expect("409")
+    complaints.expect("401")
+    run = learner.create_run("endet bald")
+    learner.ask(run, ask("inspect_full"))
+    page = open_page(f"/work?run={run}", locale=GERMAN)
+    wait_for_heading(page, ask("inspect_full")["question"])
+    learner.call("PATCH", f"/runs/{run}", {"state": "finished"})
+    page.keyboard.press("f")
+    refused = "Der Server hat diese Antwort nicht angenommen: Der Lauf ist beendet und mit ihm seine offenen Fragen."
+    expect(page.get_by_text(refused)).to_be_visible()
+    page.goto("/login#falsch")
+    expect(page.get_by_text("Bitte prüfen, ob der ganze Link kopiert ist.")).to_be_visible()
     check(page)
 
 

@@ -22,7 +22,7 @@ from tests.learner.experts.test_oracle_expert import (
 from typer.testing import CliRunner
 
 from waypost import wire
-from waypost.domains import find_domain
+from waypost.domains import find_domain, oracle_of
 from waypost_learner.cli import app
 from waypost_learner.experts.gold import make_gold
 from waypost_learner.experts.practice import practice
@@ -60,7 +60,7 @@ def test_a_segment_should_end_where_its_subgoal_is_reached():
     segment = walked((2, 2), EAST, RIGHT, RIGHT, RIGHT, RIGHT)
     solution = solve(domain, ask("label_lo", two_rooms(), [segment]))
     assert (solution.known.end, len(solution.known.actions)) == (3, 3)
-    assert "accomplished" in solution.reasons[-1]
+    assert solution.reasons == ("shortest",) * 3 + ("accomplished",)
 
 
 def test_a_demonstration_is_not_known_beforehand():
@@ -83,13 +83,36 @@ def test_practice_is_made_for_any_domain_with_an_oracle(tmp_path: Path):
     assert kinds == {"inspect_full", "inspect_lo", "label_hi", "label_lo", "label_full"}
 
 
+@pytest.mark.parametrize("name", ["maze", "corridor"])
+def test_practice_has_a_demonstration_of_each_way_in_which_one_is_asked_for(tmp_path: Path, name: str):
+    file, played = tmp_path / "practice.json", find_domain(name)
+    file.write_text(practice(played, "random", seed=0))
+    oracle = oracle_of(played)
+    shown = {(one.ask.flat, bool(one.ask.context)): one for one in PracticeSet(file).questions().demonstrations}
+    assert set(shown) == {(False, False), (True, False), (False, True)}
+    for (flat, plays_on), one in shown.items():
+        states, segments = one.answer.replay.states, one.answer.segments
+        assert len(states) == 1 + sum(len(segment.actions) for segment in segments)
+        assert (segments[0].subgoal is None) == flat
+        assert oracle.succeeded(one.ask.instance, states[-1]) != plays_on
+        if plays_on:
+            *reached, failed = one.ask.context
+            ways = [(one.subgoal, one.states[0], one.states[-1]) for one in (*reached, failed)]
+            ways.append((segments[0].subgoal, states[0], states[-1]))
+            done = [oracle.reached(one.ask.instance, s, t, played.subgoals.index(g)) for g, s, t in ways]
+            assert done == [*(True for _ in reached), False, True]
+
+
 def test_practice_has_the_pictures_of_a_domain_that_draws_its_states(tmp_path: Path):
     file = tmp_path / "practice.json"
     file.write_text(practice(find_domain("corridor"), "random", seed=0))
     made = PracticeSet(file)
-    segments = [one for query in made.questions().queries for one in (*query.ask.segments, *query.ask.context)]
-    assert all(len(one.frames) == len(one.states) for one in segments)
-    assert {frame for one in segments for frame in one.frames} == set(made.frames)
+    offered = made.questions()
+    asks = [one.ask for one in (*offered.queries, *offered.demonstrations)]
+    shown = [one for ask in asks for one in (*getattr(ask, "segments", ()), *ask.context)]
+    shown += [one.answer.replay for one in offered.demonstrations]
+    assert all(len(one.frames) == len(one.states) for one in shown)
+    assert {frame for one in shown for frame in one.frames} == set(made.frames)
 
     content = json.loads(file.read_text())
     content["frames"].pop()

@@ -1,6 +1,7 @@
 """Practice: known answers, marked label by label, and nothing stored."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,8 @@ from tests.server.kit import API, Json, Service, frame, in_process, png
 from waypost_server.gold.practice import SHIPPED, BadPractice, PracticeSet, PracticeSets
 from waypost_server.settings import Settings
 
-EXERCISES = json.loads(SHIPPED.read_text())["exercises"]
+OWN = json.loads(SHIPPED.read_text())
+EXERCISES, DEMONSTRATIONS = OWN["exercises"], OWN["demonstrations"]
 
 
 def best(exercise: Json, choice: int) -> Json:
@@ -48,6 +50,7 @@ def test_all_kinds_but_demonstrations_are_practiced_and_only_examples_give_the_a
         marks = one["feedback"]["marks"]
         assert all(mark["is_right"] and mark["given"] in mark["right"] for mark in marks)
         assert len(marks) == len(one["feedback"]["reasons"])
+    assert found["demonstrations"] == DEMONSTRATIONS, "they are looked at, because nobody can play one in practice"
     verdicts = [one["known"]["verdict"] for one in EXERCISES if "verdict" in one["known"]]
     assert sorted(verdicts) == ["fail", "fail", "pass", "pass"]
 
@@ -101,6 +104,22 @@ def test_each_domain_can_have_practice_of_its_own(sqlite_url: str, tmp_path: Pat
         assert refused["detail"] == "There is no practice for 'none', only for: maze, taxi."
     with pytest.raises(BadPractice, match="a second file of practice queries about 'taxi'"):
         PracticeSets((file, file))
+
+
+def test_a_demonstration_to_look_at_is_one_that_could_be_an_answer_with_all_its_states(tmp_path: Path) -> None:
+    file = tmp_path / "practice.json"
+
+    def refuses(change: Callable[[Json], None], why: str) -> None:
+        own = json.loads(SHIPPED.read_text())
+        change(own["demonstrations"][0])
+        file.write_text(json.dumps(own))
+        with pytest.raises(BadPractice, match=why):
+            PracticeSet(file)
+
+    refuses(lambda one: one["answer"].update(replay=None), "has no states, so there is nothing to show")
+    refuses(lambda one: one["answer"]["replay"]["states"].pop(), "one per state")
+    refuses(lambda one: one["answer"]["segments"][0].update(subgoal="up"), "'up' is not a subgoal")
+    refuses(lambda one: one["answer"]["segments"][0]["actions"].append("jump"), "'jump' is not an action")
 
 
 def test_several_files_are_named_in_one_setting(monkeypatch: pytest.MonkeyPatch) -> None:

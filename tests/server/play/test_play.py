@@ -219,7 +219,10 @@ def test_an_assignment_of_another_query_is_refused(play: Play) -> None:
     held = play.service.annotator.lease()
     with play.open(play.service.annotator.token, query=asked[0]["id"]) as socket:
         say(socket, {"type": "take", "assignment": held["id"], "token": held["token"]})
-        assert ending(socket)[0] == 4409
+        assert ending(socket) == (
+            4409,
+            f"not-playable: Query {asked[0]['id']} is inspect_full; only demonstrations are played.",
+        )
 
 
 def test_another_runs_learner_is_refused(play: Play) -> None:

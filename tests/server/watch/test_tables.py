@@ -2,7 +2,7 @@
 
 import pytest
 from sqlalchemy import text
-from tests.server.kit import Json, Service, query
+from tests.server.kit import Json, Service, query, segment
 from tests.server.runs.test_curves import filled, report, result
 
 
@@ -208,6 +208,21 @@ def test_whoever_waits_is_told_what_the_learner_does_and_how_long_that_usually_t
     other = service.learner.create_run(name="newer")
     assert [one["run"] for one in service.annotator.get("/outlook")["runs"]] == [other, run]
     assert [one["run"] for one in service.annotator.get(f"/outlook?run={run}")["runs"]] == [run, other]
+
+
+def test_whoever_is_new_learns_how_demonstrations_are_asked_for(service: Service) -> None:
+    run = service.learner.create_run()
+
+    def forms() -> list[str]:
+        (found,) = service.annotator.get("/outlook")["runs"]
+        return list(found["demonstrations"])
+
+    service.learner.ask(run, query())
+    assert forms() == []
+    service.learner.ask(run, query("hier_demo", ordinal=1, context=[segment()]))
+    assert forms() == ["play_on"]
+    service.learner.ask(run, query("hier_demo", ordinal=2, flat=True), query("hier_demo", ordinal=3))
+    assert forms() == ["hier_demo", "flat_demo", "play_on"]
 
 
 def test_a_long_run_is_leafed_through_page_by_page(service: Service) -> None:

@@ -1,6 +1,7 @@
 // The client of the server's REST API, and the two ways in which a request fails.
 import createClient from 'openapi-fetch';
 import { t } from '../language/language';
+import { refusalWords } from './refusals';
 import type { components, paths } from './schema';
 
 type Problem = components['schemas']['Problem'];
@@ -11,9 +12,10 @@ export class Refused extends Error {
   override readonly name: string;
 
   constructor(status: number, problem: Partial<Problem> | undefined) {
-    super(problem?.detail ?? t(`The server answered with status ${status}.`));
+    const name = problem?.type?.split('/').at(-1) ?? 'refused';
+    super(refusalWords(name) ?? problem?.detail ?? t(`The server answered with status ${status}.`));
     this.status = status;
-    this.name = problem?.type?.split('/').at(-1) ?? 'refused';
+    this.name = name;
   }
 }
 
@@ -61,7 +63,7 @@ export function tryingAgain(): string {
   return t('The server cannot be reached. The web app tries again automatically.');
 }
 
-/** Return what to tell the person about an error. A refusal is in the language of the server. */
+/** Return what to tell the person about an error. A refusal that the page has no words for is in English. */
 export function wordsOf(error: unknown, unreachable?: string): string {
   if (error instanceof Unreachable) return unreachable ?? t('The server cannot be reached.');
   return error instanceof Error ? error.message : String(error);

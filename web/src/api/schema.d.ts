@@ -3088,9 +3088,9 @@ export interface components {
             marks: components["schemas"]["Mark"][];
             /**
              * Reasons
-             * @description For each label, the reason why the correct labels are correct.
+             * @description For each label, why the correct labels are correct. `accomplished`, `not_accomplished`: the goal is, or is not, accomplished in this state. `shortest`: they are on a shortest path to it. `no_way`: nothing leads to it from this state. The goal is the segment's subgoal in a Label_LO or an Inspect_LO, else the task.
              */
-            reasons: string[];
+            reasons: ("accomplished" | "not_accomplished" | "shortest" | "no_way")[];
             /**
              * Is Right
              * @description Whether all labels are correct.
@@ -4097,6 +4097,11 @@ export interface components {
              */
             examples: components["schemas"]["WorkedExample"][];
             /**
+             * Demonstrations
+             * @description At most one for each way in which demonstrations are asked for.
+             */
+            demonstrations: components["schemas"]["WorkedDemonstration"][];
+            /**
              * Domains
              * @description All domains that can be practiced on this server.
              */
@@ -4995,6 +5000,11 @@ export interface components {
              */
             kinds: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full")[];
             /**
+             * Demonstrations
+             * @description How it asked for its last demonstrations: `hier_demo`, segments with subgoals; `flat_demo`, actions only; `play_on`, from a state where it failed.
+             */
+            demonstrations: ("hier_demo" | "flat_demo" | "play_on")[];
+            /**
              * Doing
              * @description What the learner does: it waits for answers (`asking`), learns from them (`training`), or acts until it has something to ask (`rolling_out`); or the run is paused or finished.
              * @enum {string}
@@ -5649,6 +5659,15 @@ export interface components {
              */
             timestamp: string;
             data: components["schemas"]["RunNews"];
+        };
+        /**
+         * WorkedDemonstration
+         * @description A demonstration as a worked example, sent by the server. To practice one, a learner's environment is needed.
+         */
+        WorkedDemonstration: {
+            ask: components["schemas"]["AskHierDemo"];
+            /** @description A good demonstration, with the states that were seen. The episode ends with it, unless it plays on where the learner failed. */
+            answer: components["schemas"]["HierDemoAnswer"];
         };
         /**
          * WorkedExample

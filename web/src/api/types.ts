@@ -55,6 +55,7 @@ export type Session = Schemas['Session'];
 export type Gold = Schemas['Gold'];
 export type Outlook = Schemas['Outlook'];
 export type RunOutlook = Schemas['RunOutlook'];
+export type DemoForm = RunOutlook['demonstrations'][number];
 export type Practice = Schemas['Practice'];
 export type Feedback = Schemas['Feedback'];
 export type Json = Schemas['JsonValue'];

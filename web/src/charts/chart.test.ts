@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import {
   areaPath,
   extent,
+  freePlace,
   linePath,
   markOf,
   nearest,
@@ -142,5 +143,21 @@ describe('CSV', () => {
         ['=1+1', -2, '@x'],
       ]),
     ).toBe('"a,b","say ""x""",\r\n\'=1+1,-2,\'@x\r\n');
+  });
+});
+
+describe('the place of words', () => {
+  const place = (left: number, top: number) => ({ left, right: left + 2, top, bottom: top + 2 });
+  const rising = { label: 'a', mark: markOf(0), x: [0, 10], y: [0, 10] };
+
+  it('is the first that no line passes', () => {
+    expect(freePlace([place(4, 4), place(4, 8), place(8, 0)], [rising], same, same)).toEqual(place(4, 8));
+    expect(freePlace([place(4, 4), place(8, 8)], [rising], same, same)).toEqual(place(4, 4));
+  });
+
+  it('is where no line has begun or goes on', () => {
+    expect(freePlace([place(11, 9)], [rising], same, same)).toEqual(place(11, 9));
+    const late = { ...rising, x: [8, 10] };
+    expect(freePlace([place(0, 0), place(4, 4)], [late], same, same)).toEqual(place(0, 0));
   });
 });

@@ -195,6 +195,35 @@ export function spread(wanted: readonly number[], gap: number, low: number, high
   return placed;
 }
 
+/** A place for words, in pixels. */
+export interface Place {
+  readonly left: number;
+  readonly right: number;
+  readonly top: number;
+  readonly bottom: number;
+}
+
+/** Return the first place that no line passes; the first of all if lines pass each of them. */
+export function freePlace<P extends Place>(
+  places: readonly [P, ...P[]],
+  series: readonly Series[],
+  toX: ToPixel,
+  toY: ToPixel,
+): P {
+  return places.find((place) => !series.some((one) => passes(one, place, toX, toY))) ?? places[0];
+}
+
+function passes(one: Series, { left, right, top, bottom }: Place, toX: ToPixel, toY: ToPixel): boolean {
+  const across = one.x.map(toX);
+  const [begin, end] = [across[0] ?? Infinity, across.at(-1) ?? -Infinity];
+  if (begin > right || end < left) return false;
+  const values = (one.top ?? one.y).map((value) => toY(value ?? 0));
+  const line = scaleLinear(across, values);
+  const inside = values.filter((_, row) => left <= (across[row] ?? 0) && (across[row] ?? 0) <= right);
+  const heights = [line(Math.max(left, begin)), ...inside, line(Math.min(right, end))];
+  return heights.some((y) => y >= top) && heights.some((y) => y <= bottom);
+}
+
 /** Return the few rows at which a line has its marker. They are at other places in each series. */
 export function markerRows(series: Pick<Series, 'x'>, index: number, toX: ToPixel, every = 130): number[] {
   const rows: number[] = [];

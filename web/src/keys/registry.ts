@@ -58,6 +58,7 @@ export const MODES = [
   'waiting',
   'feedback',
   'example',
+  'shown_demo', // a demonstration as a worked example
   'between',
   'review',
 ] as const;
@@ -77,6 +78,7 @@ export function bindingsFor(mode: Mode, vocabulary: Vocabulary | null): Binding[
 
 function taskBindings(mode: Mode): readonly Binding[] {
   if (mode === 'feedback' || mode === 'example' || mode === 'between') return [];
+  if (mode === 'shown_demo') return player().filter(({ command }) => command === 'play');
   if (mode === 'waiting') return [undo()];
   if (mode === 'review') return player();
   return mode === 'hier_demo' || mode === 'flat_demo' ? task() : [...task(), ...player()];
@@ -297,6 +299,12 @@ function answerBindings(mode: Mode): readonly Binding[] {
           once: true,
         },
         ...look(),
+      ];
+    case 'shown_demo':
+      return [
+        { command: 'accept', keys: ['Enter'], label: t('Go on'), group: t('Answer'), once: true },
+        { command: 'previous-segment', keys: ['ArrowUp'], label: t('Previous row'), group: t('Answer') },
+        { command: 'next-segment', keys: ['ArrowDown'], label: t('Next row'), group: t('Answer') },
       ];
     case 'review':
       return review();

@@ -99,10 +99,16 @@ describe('the play socket', () => {
   });
 
   it.each([4401, 4403, 4404, 4409, 4422])('is not opened again after a refusal: %i', async (code) => {
-    last().close(code, 'The lease has expired.');
+    last().close(code, 'displaced: A newer connection has replaced this one.');
     await vi.advanceTimersByTimeAsync(60_000);
-    expect(heard).toEqual(['The lease has expired.', code - 4000]);
+    expect(heard).toEqual(['It is open in another tab or browser.', code - 4000]);
     expect(wires).toHaveLength(1);
+  });
+
+  it('keeps the words of a refusal that the page has none for', async () => {
+    last().close(4422, 'unprocessable: segments.0: is: not valid');
+    await vi.advanceTimersByTimeAsync(0);
+    expect(heard).toEqual(['segments.0: is: not valid', 422]);
   });
 
   it('is silent after we left', async () => {

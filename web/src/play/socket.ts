@@ -1,5 +1,6 @@
 // The play socket of a query: moves go to the learner, states come back.
 import type { PlayMoves, PlayStage, PlayStates, PlayTake } from '../api/types';
+import { refusalWords } from '../api/refusals';
 import { delay, pause } from '../api/retry';
 
 export interface SocketEvents {
@@ -60,7 +61,8 @@ export class PlaySocket {
   async #closed({ code, reason }: CloseEvent): Promise<void> {
     if (this.#over.signal.aborted) return;
     if (code >= REFUSED && code < 4500 && !PASSING.has(code)) {
-      this.#events.refused(reason, code - 4000);
+      const { name = '', words = reason } = /^(?<name>[a-z-]+): (?<words>.*)$/.exec(reason)?.groups ?? {};
+      this.#events.refused(refusalWords(name) ?? words, code - 4000);
       return;
     }
     this.#events.lost();

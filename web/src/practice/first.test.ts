@@ -1,17 +1,25 @@
 // @vitest-environment happy-dom
 import { beforeEach, expect, test } from 'vitest';
 import type { Kind, Me, Outlook, Practice } from '../api/types';
-import { domainToPractice, firstQueries, isNew, remember } from './first';
+import { domainToPractice, firstDemonstrations, firstQueries, isNew, remember } from './first';
+import { formOf } from './worked';
 
 const me = (more: Partial<Me>): Me => ({ id: 7, role: 'annotator', answers: 0, ...more }) as Me;
 const kinds: Kind[] = ['inspect_full', 'inspect_full', 'label_hi', 'label_hi', 'label_lo'];
 const practice = {
-  vocabulary: { domain: 'maze' },
+  vocabulary: { domain: 'maze', subgoals: ['north'] },
   queries: kinds.map((kind, id) => ({ id, ask: { kind } })),
   examples: [{ query: 1 }, { query: 3 }],
+  demonstrations: [
+    { ask: { flat: false, context: [] } },
+    { ask: { flat: true, context: [] } },
+    { ask: { flat: false, context: ['failed'] } },
+  ],
   domains: ['maze', 'taxi'],
 } as unknown as Practice;
 const outlook = (...runs: object[]): Outlook => ({ open: 0, runs }) as unknown as Outlook;
+const forms = (found: ReturnType<typeof firstDemonstrations>): string[] =>
+  found.map(({ ask }) => formOf(ask));
 const ids = (found: Practice['queries']): number[] => found.map(({ id }) => id);
 
 beforeEach(() => localStorage.clear());
@@ -46,4 +54,19 @@ test('nothing is practiced for a domain of which the person gets no queries', ()
   const other = { domain: 'taxi', doing: 'asking', kinds: ['label_hi'] };
   expect(firstQueries(practice, outlook(other))).toEqual([]);
   expect(ids(firstQueries(practice, outlook({ ...other, doing: 'finished' })))).toEqual([0, 2, 4]);
+});
+
+test('demonstrations to look at are those that the learners ask for or, at the beginning, may ask for', () => {
+  const run = (kinds: Kind[], ...demonstrations: string[]): Outlook =>
+    outlook({ domain: 'maze', doing: 'asking', kinds, demonstrations });
+  const both = ['hier_demo', 'play_on'];
+  expect(forms(firstDemonstrations(practice, outlook()))).toEqual(both);
+  expect(forms(firstDemonstrations(practice, run(['hier_demo'], 'hier_demo')))).toEqual(both);
+  expect(forms(firstDemonstrations(practice, run(['hier_demo'], 'flat_demo')))).toEqual(['flat_demo']);
+  expect(forms(firstDemonstrations(practice, run(['hier_demo', 'label_hi'], 'hier_demo')))).toEqual([
+    'hier_demo',
+  ]);
+  expect(forms(firstDemonstrations(practice, run(['label_hi'])))).toEqual([]);
+  const flat = { ...practice, vocabulary: { ...practice.vocabulary, subgoals: [] } };
+  expect(forms(firstDemonstrations(flat, outlook()))).toEqual(['flat_demo']);
 });

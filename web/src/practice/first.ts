@@ -1,6 +1,7 @@
 // The first practice: it comes once per person, before the first question of a run.
 import type { AnswerableKind, Me, Outlook, Practice } from '../api/types';
 import { t } from '../language/language';
+import { formOf, type Worked } from './worked';
 
 const KEY = 'waypost.practiced.';
 
@@ -30,12 +31,10 @@ export function domainToPractice({ domains }: Practice, outlook: Outlook): strin
  * teach nothing of use.
  */
 export function firstQueries(practice: Practice, outlook: Outlook): Practice['queries'] {
-  const live = outlook.runs.filter((run) => run.doing !== 'finished');
-  const ours = live.filter((run) => run.domain === practice.vocabulary.domain);
-  if (live.length > 0 && ours.length === 0) return [];
+  const ours = runsOf(practice, outlook);
+  if (ours === null) return [];
   const asked = new Set(ours.flatMap((run) => run.kinds));
-  // Labels are asked after inspections and demonstrations: only from them on is it known which kinds a run asks.
-  const isKnown = [...asked].some((kind) => kind.startsWith('label'));
+  const isKnown = knowsKinds(ours);
   const worked = new Set(practice.examples.map((example) => example.query));
   const seen = new Set<string>();
   return practice.queries.filter(({ id, ask: { kind } }) => {
@@ -43,6 +42,33 @@ export function firstQueries(practice: Practice, outlook: Outlook): Practice['qu
     seen.add(kind);
     return true;
   });
+}
+
+/**
+ * Return the demonstrations to look at for somebody new: one for each way in which the learners of this domain ask for
+ * them or, at the beginning of a run, may ask. A learner that asks for flat ones asks for no others.
+ */
+export function firstDemonstrations(practice: Practice, outlook: Outlook): readonly Worked[] {
+  const ours = runsOf(practice, outlook);
+  if (ours === null) return [];
+  const asked = new Set(ours.flatMap((run) => run.demonstrations));
+  const isFlat = practice.vocabulary.subgoals.length === 0 || (asked.size === 1 && asked.has('flat_demo'));
+  return practice.demonstrations.filter(({ ask }) => {
+    const form = formOf(ask);
+    return asked.has(form) || (!knowsKinds(ours) && isFlat === (form === 'flat_demo'));
+  });
+}
+
+/** Return the runs of the practiced domain that go on; null if all that go on are of other domains. */
+function runsOf({ vocabulary }: Practice, outlook: Outlook): Outlook['runs'] | null {
+  const live = outlook.runs.filter((run) => run.doing !== 'finished');
+  const ours = live.filter((run) => run.domain === vocabulary.domain);
+  return live.length > 0 && ours.length === 0 ? null : ours;
+}
+
+/** Labels are asked after inspections and demonstrations: only from them on is it known what a run asks. */
+function knowsKinds(runs: Outlook['runs']): boolean {
+  return runs.some((run) => run.kinds.some((kind) => kind.startsWith('label')));
 }
 
 /** Return how each kind of question is answered, beside a worked example. */

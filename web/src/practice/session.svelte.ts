@@ -1,10 +1,12 @@
 // A practice session: one query after the other, each with feedback. Nothing is stored.
 import { api, unwrap, wordsOf } from '../api/client';
 import type { Answer, Answerable, AnswerableKind, Feedback, Practice, Vocabulary } from '../api/types';
-import { domainToPractice, firstQueries } from './first';
+import { domainToPractice, firstDemonstrations, firstQueries } from './first';
+import type { Worked } from './worked';
 
 /** `useless`: the first practice has nothing that the person will be asked. */
-export type Phase = 'loading' | 'intro' | 'example' | 'question' | 'feedback' | 'done' | 'failed' | 'useless';
+export type Phase =
+  'loading' | 'intro' | 'example' | 'question' | 'feedback' | 'demonstration' | 'done' | 'failed' | 'useless';
 
 interface PracticeQuery {
   readonly id: number;
@@ -24,6 +26,7 @@ export class PracticeSession {
   problem: string | null = $state(null);
   results: readonly boolean[] = $state.raw([]); // by place, of this round
   example: WorkedExample | null = $state.raw(null); // of the phase `example`
+  demonstrations: readonly Worked[] = $state.raw([]); // to look at after the last question; the first one is next
   #practice: Practice | null = $state.raw(null);
   readonly #isFirst: boolean;
   #examples: readonly WorkedExample[] = []; // those that were not shown yet
@@ -48,6 +51,7 @@ export class PracticeSession {
       const other = domain === undefined ? domainToPractice(usual, outlook) : null;
       const practice = other === null || other === usual.vocabulary.domain ? usual : await practiceOf(other);
       this.#examples = this.#isFirst ? workedExamples(practice) : [];
+      this.demonstrations = this.#isFirst ? firstDemonstrations(practice, outlook) : [];
       const queries = this.#isFirst ? firstQueries(practice, outlook) : practice.queries;
       this.#practice = { ...practice, queries };
       if (!this.#isFirst) this.phase = 'intro';
@@ -91,8 +95,9 @@ export class PracticeSession {
   }
 
   next(): void {
-    if (this.place + 1 < this.total) this.#show(this.place + 1);
-    else this.phase = 'done';
+    if (this.phase === 'demonstration') this.demonstrations = this.demonstrations.slice(1);
+    if (this.phase !== 'demonstration' && this.place + 1 < this.total) this.#show(this.place + 1);
+    else this.phase = this.demonstrations.length > 0 ? 'demonstration' : 'done';
   }
 
   /** After the feedback, answer this query again; before it, go back to the previous query. */
@@ -116,7 +121,7 @@ export class PracticeSession {
     return found;
   }
 
-  /** Return the queries of the practice file except demonstrations, which need a learner's environment. */
+  /** Return the queries of the practice. A demonstration needs a learner’s environment, so it is only looked at. */
   #queries(): readonly PracticeQuery[] {
     const queries = this.#practice?.queries ?? [];
     return queries.flatMap(({ id, ask }) => (ask.kind === 'hier_demo' ? [] : [{ id, ask }]));

@@ -3,7 +3,7 @@ import type { RunOutlook } from '../api/types';
 import { doingWords, openWords } from './outlook';
 
 const run = (more: Partial<RunOutlook>): RunOutlook => ({
-  ...{ run: 'r', name: 'r', domain: 'maze', kinds: [], open: 0 },
+  ...{ run: 'r', name: 'r', domain: 'maze', kinds: [], demonstrations: [], open: 0 },
   ...{ doing: 'training', seconds: 5, usual_seconds: 40 },
   ...more,
 });
