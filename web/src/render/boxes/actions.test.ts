@@ -69,8 +69,8 @@ describe('the places of actions', () => {
     [[0.31, 0.01], [400, 40], 'right'], // in a corner
     [middle(2), [400, 40], null], // between the two
     [middle(8), [400, 40], null],
-    [[0.275, 0.5], [100, 10], 'right'], // a small picture: beside the box, within 24 pixels
-    [[0.22, 0.5], [100, 10], 'left'], // and nearer to the other one
+    [[0.26, 0.5], [100, 10], 'right'], // a small picture: beside both boxes, within 24 pixels
+    [[0.24, 0.5], [100, 10], 'left'], // nearer to the other one
     [[0.35, 1.05], [100, 10], 'right'],
     [[0.55, 0.5], [100, 10], null],
   ])('are hit at %o of %o pixels: %s', (point, size, action) => {
