@@ -8,7 +8,7 @@ const LAYERS = [
   ['ui'], // components and formats of every view; who is signed in
   ['ui/table'], // tables and their pages
   ['charts', 'player', 'task/labels'], // charts; a trajectory as frames, played; editors of labels
-  ['render/maze'], // the maze on a canvas
+  ['render/maze', 'render/boxes'], // the maze on a canvas; places in pictures, and what pointing at them does
   ['render'], // drawing a state: with the renderer of its domain, else with pictures or as text
   ['runs/curves', 'runs/queries', 'task', 'work/answers'], // learning curves; queries and ledger; one query to answer; sending
   ['play', 'review'], // demonstrations, played in the web app; given answers under review

@@ -92,6 +92,16 @@ def successor(state: State, action: str) -> State:
     return state if stays else {**state, "agent": [column, row]}
 
 
+def action_landmarks(state: State) -> dict[str, Any]:
+    """Return the cell in the picture to which each action leads; a wall keeps the agent where it is."""
+    cells = {action: successor(state, action)["agent"] for action in MOVES}
+    return {
+        action: (column / SIDE, row / SIDE, (column + 1) / SIDE, (row + 1) / SIDE)
+        for action, (column, row) in cells.items()
+        if [column, row] != state["agent"]
+    }
+
+
 lava_crossing = waypost.domain(
     lambda: Moves(gymnasium.make("minigrid:MiniGrid-LavaCrossingS11N5-v0", render_mode="rgb_array", highlight=False)),
     ("cross_right", "cross_down", "goal"),
@@ -103,4 +113,5 @@ lava_crossing = waypost.domain(
     reached=reached,
     successor=successor,
     picture=lambda env: env.render(),
+    action_landmarks=action_landmarks,
 )

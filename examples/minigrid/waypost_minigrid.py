@@ -153,9 +153,30 @@ def picture(env: gymnasium.Env[Any, Any]) -> Any:
 
 
 def landmarks(state: State) -> dict[str, Any]:
-    """Return where the key, the door and the box are in the picture, which shows 11 x 6 cells."""
+    """Return where the key, the door and the box are in the picture."""
     cells = {subgoal: state[thing] for subgoal, thing in OBJECTS.items() if state[thing] is not None}
-    return {g: (column / 11, row / 6, (column + 1) / 11, (row + 1) / 6) for g, (column, row) in cells.items()}
+    return {subgoal: box_of(cell) for subgoal, cell in cells.items()}
+
+
+def action_landmarks(state: State) -> dict[str, Any]:
+    """Return the cell of each action: beside the agent for a turn, ahead for an action that changes something there."""
+    ahead = faced(state["pose"])
+    cells = {move: faced(state["pose"], turn) for move, turn in TURNS.items()}
+    if is_free(state, ahead):
+        cells["forward"] = ahead
+        if state["carrying"] and list(ahead) != state["door"]:
+            cells["drop"] = ahead
+    elif list(ahead) == state["door"]:
+        cells["toggle"] = ahead
+    elif list(ahead) in (state["key"], state["box"]) and not state["carrying"]:
+        cells["pickup"] = ahead
+    return {action: box_of(cell) for action, cell in cells.items()}
+
+
+def box_of(cell: Sequence[int]) -> tuple[float, float, float, float]:
+    """Return where a cell is in the picture, which shows 11 x 6 cells."""
+    column, row = cell
+    return column / 11, row / 6, (column + 1) / 11, (row + 1) / 6
 
 
 unlock_pickup = waypost.domain(
@@ -171,4 +192,5 @@ unlock_pickup = waypost.domain(
     good_actions=good_actions,
     picture=picture,
     landmarks=landmarks,
+    action_landmarks=action_landmarks,
 )

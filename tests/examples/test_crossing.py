@@ -9,7 +9,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.learner.kit import examples
-from waypost_crossing import MOVES, cell, lava_crossing, reached, state, succeeded, successor
+from waypost_crossing import MOVES, SIDE, cell, lava_crossing, reached, state, succeeded, successor
 
 from waypost.domains import Centered, Cropped, Placed, Relabeling, Symmetric, Viewed
 from waypost_learner.algorithms import find_algorithm
@@ -38,6 +38,21 @@ def test_its_rules_are_those_of_the_environment(seed: int, actions: list[str]) -
         assert terminated == (cell(expected) != ".")
         if terminated or truncated:
             break
+
+
+@examples
+@given(seeds, actions)
+def test_a_box_of_an_action_is_the_cell_that_it_leads_to(seed: int, actions: list[str]) -> None:
+    now = Simulator(lava_crossing).reset(seed).view
+    for action in actions:
+        boxes = lava_crossing.action_landmarks(seed, now)
+        after = successor(now, action)
+        box = boxes.get(list(MOVES).index(action))
+        assert (box is None) == (after == now), "a wall, or lava, keeps the agent where it is"
+        if box is not None:
+            assert [round(box[0] * SIDE), round(box[1] * SIDE)] == after["agent"]
+            assert [round(box[2] * SIDE), round(box[3] * SIDE)] == [place + 1 for place in after["agent"]]
+        now = after
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -47,6 +47,30 @@ def test_a_landmark_frames_its_object_in_the_picture(seed: int, actions: list[in
 
 @examples
 @given(seeds, actions)
+def test_boxes_of_actions_are_beside_and_ahead_of_the_agent_and_name_what_changes_the_state(
+    seed: int, actions: list[int]
+) -> None:
+    env: Any = unlock_pickup.make_env()
+    env.reset(options={"instance": seed})
+    for action in actions:
+        env.step(np.int64(action))
+    before = unlock_pickup.state_view(env)
+    boxes = unlock_pickup.action_landmarks(seed, before)
+    named = {unlock_pickup.actions[action]: box for action, box in boxes.items()}
+    assert {"left", "right"} <= set(named)
+    ahead = [box for name, box in named.items() if name not in ("left", "right")]
+    column, row = env.unwrapped.inner.unwrapped.front_pos
+    assert ahead == [pytest.approx((column / 11, row / 6, (column + 1) / 11, (row + 1) / 6))] * len(ahead)
+    for action in set(boxes) - {unlock_pickup.actions.index("toggle")}:  # a locked door stays as it is without the key
+        other: Any = unlock_pickup.make_env()
+        other.reset(options={"instance": seed})
+        for one in [*actions, action]:
+            other.step(np.int64(one))
+        assert unlock_pickup.state_view(other) != before
+
+
+@examples
+@given(seeds, actions)
 def test_the_same_actions_give_the_same_states_and_observations(seed: int, actions: list[int]) -> None:
     runs = []
     for _ in range(2):

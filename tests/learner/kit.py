@@ -10,6 +10,7 @@ import numpy as np
 from hypothesis import assume, settings
 from hypothesis import strategies as st
 
+from waypost import wire
 from waypost.client import Client
 from waypost.trajectory import Segment, State
 from waypost_learner.domains.maze.generator import maze_set
@@ -194,7 +195,7 @@ def corridor(**values: Any) -> TrainConfig:
 def history(client: Client, run: str) -> list[tuple[Any, ...]]:
     """All that was asked (its pictures aside), answered and charged in a run, by episode and ordinal."""
     found, cursor = [], 0
-    pictures: Any = {part: {"__all__": {"frames", "landmarks"}} for part in ("segments", "context")}
+    pictures: Any = {part: {"__all__": {*wire.Pictured.model_fields}} for part in ("segments", "context")}
     while (page := client.answers(run, cursor)).queries:
         cursor = page.cursor
         found += [

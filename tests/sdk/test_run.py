@@ -175,6 +175,21 @@ def test_places_of_subgoals_in_the_pictures_come_with_them(service):
         assert found == landmarks
 
 
+def test_places_of_actions_are_sent_in_names_and_equal_questions_are_asked_once_whatever_the_boxes(service):
+    run = service.start()
+    pictures = [np.full((4, 6, 3), shade, np.uint8) for shade in (0, 128)]
+
+    def labels(**boxes):
+        segment = waypost.Segment([0, 1], ["left"], "door", pictures, **boxes)
+        return waypost.LabelLo(segment, episode=0)
+
+    asked = run.ask(labels(action_landmarks=[{"left": (0, 0, 0.5, 1)}, {}]))
+    ask = service.lease().query.ask
+    assert ask.segments[0].action_landmarks == [{"left": wire.Box(left=0, top=0, right=0.5, bottom=1)}, {}]
+    again = run.ask(labels(landmarks=[{"door": (0, 0, 1, 1)}], action_landmarks=[{"right": (0.5, 0, 1, 1)}]))
+    assert again.id == asked.id
+
+
 # --- waiting for answers
 
 
@@ -441,6 +456,20 @@ def test_a_result_is_kept_with_the_finished_run(service):
         (
             lambda: waypost.LabelHi([waypost.Segment([0], [], "door", [DARK], [{"gate": (0, 0, 1, 1)}])], episode=0),
             "no subgoal 'gate'; .*: door, key",
+        ),
+        (
+            lambda: waypost.Segment([0, 1], ["left"], "door", action_landmarks=[{"left": (0, 0, 1, 1)}]),
+            "has action_landmarks 1 times, 2 states and 0 pictures; give action_landmarks with pictures only",
+        ),
+        (
+            lambda: waypost.Segment([0], [], "door", [b""], action_landmarks=[{"left": (0, 0, 2, 1)}]),
+            r"the box of 'left' is \(0, 0, 2, 1\); give its left, upper",
+        ),
+        (
+            lambda: waypost.LabelHi(
+                [waypost.Segment([0], [], "door", [DARK], action_landmarks=[{"door": (0, 0, 1, 1)}])], episode=0
+            ),
+            "no action 'door'; .*: left, right",
         ),
         (lambda: waypost.InspectFull([waypost.Segment([0, 1], ["up"])], episode=0), "no action 'up'; .*: left, right"),
         (lambda: waypost.InspectLo(waypost.Segment([0], [], "dor"), episode=0), "no subgoal 'dor'; .*: door, key"),

@@ -16,7 +16,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from waypost.domains import Box, Horizons, InstanceSets, Symmetry
-from waypost.trajectory import Outcome, Subgoal
+from waypost.trajectory import Action, Outcome, Subgoal
 
 CELLS = 13
 OBSERVED = CELLS + 2 * CELLS - 1  # numbers in an observation
@@ -191,6 +191,12 @@ class CorridorDomain:
             TARGET: instance["target"],
         }
         return {g: (cell / CELLS, 0, (cell + 1) / CELLS, 1) for g, cell in cells.items() if cell is not None}
+
+    def action_landmarks(self, instance: Any, state: Any) -> dict[Action, Box]:
+        """Return the boxes of the cells to which the actions lead; there is none beyond the ends."""
+        del instance
+        cells = {WEST: state - 1, EAST: state + 1}
+        return {a: (cell / CELLS, 0, (cell + 1) / CELLS, 1) for a, cell in cells.items() if 0 <= cell < CELLS}
 
     def succeeded(self, env: Any) -> bool:
         """Return whether the agent is on the target."""

@@ -113,6 +113,8 @@ def _played(domain: Domain, oracle: Oracle, one: Candidate) -> tuple[wire.Worked
         is_good = seen.ended and seen.succeeded
     if not is_good:
         return None
-    replay = wire.DemoReplay(states=seen.states, frames=seen.frames, landmarks=seen.landmarks)
+    replay = wire.DemoReplay(
+        states=seen.states, frames=seen.frames, landmarks=seen.landmarks, action_landmarks=seen.action_landmarks
+    )
     answer = one.answer.model_copy(update={"replay": replay})
     return wire.WorkedDemonstration(ask=ask, answer=answer), frames | camera.developed()

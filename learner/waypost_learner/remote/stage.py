@@ -64,7 +64,7 @@ class Stage:
             known=known,
             states=[state.view for state in self._states[known:]],
             frames=frames,
-            landmarks=self._translator.landmarks(self._states[known:]) if frames else [],
+            **self._translator.landmarks(self._states[known:] if frames else ()),
             ended=self._simulator.ended,
             succeeded=self._simulator.succeeded,
         )

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from waypost import wire
-from waypost.domains import Box, Domain, Landmarked, renderer_of, replay_of
+from waypost.domains import ActionLandmarked, Box, Domain, Landmarked, renderer_of, replay_of
 from waypost.trajectory import Segment, State, Trajectory, n_steps
 from waypost_learner.algorithms.queries import (
     Answer,
@@ -139,14 +139,22 @@ class Translator:
             case wire.LabelFullAnswer():
                 return tuple(self.domain.actions.index(a) for a in answer.actions)
 
-    def landmarks(self, states: Sequence[State]) -> list[dict[str, wire.Box]]:
-        """Return where subgoals are in the pictures of states: an entry per state, or one if all are the same."""
-        if not isinstance(self.domain, Landmarked):
-            return []
-        instance = self.domain.instance_view(self.instance)
-        found = [self.domain.landmarks(instance, state.view) for state in states]
-        boxes = [{self.domain.subgoals[g]: _box(box) for g, box in one.items()} for one in found]
-        return boxes[:1] if all(one == boxes[0] for one in boxes) else boxes
+    def landmarks(self, states: Sequence[State]) -> dict[str, wire.Landmarks]:
+        """Return the fields `landmarks` and `action_landmarks` of a message with pictures of states.
+
+        They have an entry per state, or one if all are the same; none if the domain does not know the places.
+        """
+        if not states:
+            return {}
+        domain, instance = self.domain, self.domain.instance_view(self.instance)
+        fields: dict[str, wire.Landmarks] = {}
+        if isinstance(domain, Landmarked):
+            found = [domain.landmarks(instance, state.view) for state in states]
+            fields["landmarks"] = _named(found, domain.subgoals)
+        if isinstance(domain, ActionLandmarked):
+            found = [domain.action_landmarks(instance, state.view) for state in states]
+            fields["action_landmarks"] = _named(found, domain.actions)
+        return fields
 
     def _replay(self, segments: Sequence[wire.DemoSegment]) -> Trajectory:
         """Return a demonstration with the observations along it, from the start that was asked for last.
@@ -195,7 +203,7 @@ class Translator:
                 states=[state.view for state in s.states],
                 actions=list(self._actions(s.actions)),
                 frames=pictures,
-                landmarks=self.landmarks(s.states) if pictures else [],
+                **self.landmarks(s.states if pictures else ()),
             )
             for s, pictures in zip(segments, frames, strict=True)
         ]
@@ -209,6 +217,11 @@ class Translator:
 
     def _actions(self, actions: Sequence[int]) -> Sequence[str]:
         return [self.domain.actions[a] for a in actions]
+
+
+def _named(found: Sequence[Mapping[int, Box]], names: Sequence[str]) -> wire.Landmarks:
+    boxes = [{names[choice]: _box(box) for choice, box in one.items()} for one in found]
+    return boxes[:1] if all(one == boxes[0] for one in boxes) else boxes
 
 
 def _box(box: Box) -> wire.Box:

@@ -4,6 +4,7 @@ from waypost.domains.contract import Domain, Horizons, InstanceSets
 from waypost.domains.failures import DomainFailed
 from waypost.domains.find import find_domain, installed, place_of
 from waypost.domains.parts import (
+    ActionLandmarked,
     Box,
     Centered,
     Computed,
@@ -39,6 +40,7 @@ from waypost.domains.parts import (
 )
 
 __all__ = [
+    "ActionLandmarked",
     "Box",
     "Centered",
     "Computed",

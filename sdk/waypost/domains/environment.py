@@ -14,7 +14,7 @@ from waypost.domains.adapter import AdaptedEnv, Env, action_table, observer
 from waypost.domains.contract import Horizons, InstanceSets
 from waypost.domains.named import NamedOracle, Rules, number_of
 from waypost.domains.parts import Box, Replay
-from waypost.trajectory import Observation, Outcome, Subgoal
+from waypost.trajectory import Action, Observation, Outcome, Subgoal
 
 State = Any
 """The JSON view of a state, as `state` returns it."""
@@ -50,6 +50,7 @@ class EnvironmentDomain:
         picture: returns a picture uint8[rows, columns, 3]. If None, the environment's own `rgb_array`, if it has one.
         landmarks: returns where subgoals are in the picture of a state: by subgoal, the left, upper, right and lower
             side of a box, as shares of the picture's width and height.
+        action_landmarks: returns where actions lead in the picture of a state: boxes by action, as above.
         instances: the instances to train on and to test on, by "train" and "test". An instance is a seed, or the
             keyword arguments of `reset`, as JSON. If None, 10,000 seeds for training and 1,000 other seeds for tests.
         snapshot: returns the whole state of the environment; if None, what `state` returns.
@@ -78,6 +79,7 @@ class EnvironmentDomain:
         successor: Callable[[State, str], State] | None = None,
         picture: Callable[[Env], Any] | None = None,
         landmarks: Callable[[State], Mapping[str, Box]] | None = None,
+        action_landmarks: Callable[[State], Mapping[str, Box]] | None = None,
         instances: Mapping[str, Sequence[Any]] | None = None,
         snapshot: Callable[[Env], Any] | None = None,
         restore: Callable[[Env, Any], None] | None = None,
@@ -109,6 +111,9 @@ class EnvironmentDomain:
         if landmarks is not None:
             self._landmarks = landmarks
             self.landmarks = self._boxes
+        if action_landmarks is not None:
+            self._action_landmarks = action_landmarks
+            self.action_landmarks = self._action_boxes
         if reached is not None:
             self.outcome = self._outcome
         rules = Rules(reached, succeeded, good_subgoals, good_actions, successor or self._simulated(snapshot, restore))
@@ -164,6 +169,10 @@ class EnvironmentDomain:
     def _boxes(self, instance: Any, state: Any) -> Mapping[Subgoal, Box]:
         del instance
         return {number_of(name, self.subgoals, "subgoal"): box for name, box in self._landmarks(state).items()}
+
+    def _action_boxes(self, instance: Any, state: Any) -> Mapping[Action, Box]:
+        del instance
+        return {number_of(name, self.actions, "action"): box for name, box in self._action_landmarks(state).items()}
 
     def _outcome(self, instance: Any, origin: Any, state: Any, subgoal: Subgoal) -> Outcome | None:
         del instance

@@ -101,6 +101,17 @@ class Landmarked(Protocol):
 
 
 @runtime_checkable
+class ActionLandmarked(Protocol):
+    """A domain whose pictures show where actions lead. A click there in the web app chooses the action."""
+
+    def action_landmarks(self, instance: Any, state: Any) -> Mapping[Action, Box]:
+        """Return the boxes of the actions that lead to a place in the picture of a state; both are JSON views.
+
+        Leave out actions that have no place, or that are never right there: a box that says little is in the way.
+        """
+
+
+@runtime_checkable
 class Rendered(Protocol):
     """A domain that the web app draws itself."""
 

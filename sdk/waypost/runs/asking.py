@@ -89,7 +89,8 @@ def _text(ask: wire.Ask) -> str:
     """Return the content of a query as text, without its number and its pictures."""
     content = ask.model_dump(mode="json", exclude={"ordinal"})
     for segment in [*content.get("segments", []), *content["context"]]:
-        del segment["frames"]
+        for field in wire.Pictured.model_fields:
+            del segment[field]
     return json.dumps(content, sort_keys=True)
 
 

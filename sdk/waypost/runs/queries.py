@@ -32,6 +32,7 @@ class Segment:
         pictures: H + 1 pictures of the states, or none; PNG files in bytes, or arrays uint8[rows, columns, 3].
         landmarks: where subgoals are in the pictures: for each state, or once for all states, boxes by subgoal. A box
             is its left, upper, right and lower side, as shares of the picture's width and height, 0 to 1.
+        action_landmarks: where actions lead in the pictures: boxes by action, in the same form.
 
     Raises:
         ValueError: there is not one state more than actions, or not one picture per state, or landmarks do not fit.
@@ -42,6 +43,7 @@ class Segment:
     subgoal: str | None = None
     pictures: Sequence[Picture] = ()
     landmarks: Sequence[Mapping[str, Sides]] = ()
+    action_landmarks: Sequence[Mapping[str, Sides]] = ()
 
     def __post_init__(self) -> None:
         n_states, n_actions, n_pictures = len(self.states), len(self.actions), len(self.pictures)
@@ -54,17 +56,18 @@ class Segment:
             raise ValueError(
                 f"the segment has {n_pictures} pictures and {n_states} states; give one picture per state, or none"
             )
-        if len(self.landmarks) not in ((0, 1, n_states) if n_pictures else (0,)):
-            raise ValueError(
-                f"the segment has landmarks {len(self.landmarks)} times, {n_states} states and {n_pictures} pictures; "
-                "give landmarks with pictures only, and then for each state, or once for all"
-            )
-        for subgoal, (left, top, right, bottom) in (item for one in self.landmarks for item in one.items()):
-            if not (0 <= left < right <= 1 and 0 <= top < bottom <= 1):
+        for name, landmarks in (("landmarks", self.landmarks), ("action_landmarks", self.action_landmarks)):
+            if len(landmarks) not in ((0, 1, n_states) if n_pictures else (0,)):
                 raise ValueError(
-                    f"the box of {subgoal!r} is {(left, top, right, bottom)}; give its left, upper, right and lower "
-                    "side, as shares of the picture's width and height, 0 to 1"
+                    f"the segment has {name} {len(landmarks)} times, {n_states} states and {n_pictures} pictures; "
+                    f"give {name} with pictures only, and then for each state, or once for all"
                 )
+            for choice, (left, top, right, bottom) in (item for one in landmarks for item in one.items()):
+                if not (0 <= left < right <= 1 and 0 <= top < bottom <= 1):
+                    raise ValueError(
+                        f"the box of {choice!r} is {(left, top, right, bottom)}; give its left, upper, right and lower "
+                        "side, as shares of the picture's width and height, 0 to 1"
+                    )
 
     @cached_property
     def message(self) -> wire.Segment:
@@ -74,7 +77,8 @@ class Segment:
             states=_json(self.states),
             actions=list(self.actions),
             frames=[digest(file) for file in self._files],
-            landmarks=[{subgoal: _box(*sides) for subgoal, sides in one.items()} for one in self.landmarks],
+            landmarks=_boxes(self.landmarks),
+            action_landmarks=_boxes(self.action_landmarks),
         )
 
     @property
@@ -321,15 +325,23 @@ def check_names(query: Query[Any], vocabulary: wire.Vocabulary) -> None:
         ValueError: the message says which name, and lists the declared ones.
     """
     for segment in (*query.context, *query.asked):
-        names = (("action", name, vocabulary.actions) for name in segment.actions)
         chosen = () if segment.subgoal is None else (segment.subgoal,)
         subgoals = (*chosen, *(name for one in segment.landmarks for name in one))
-        for what, name, declared in (*(("subgoal", name, vocabulary.subgoals) for name in subgoals), *names):
-            if name not in declared:
-                known = ", ".join(declared) or "none"
-                raise ValueError(f"the run has no {what} {name!r}; the names that it declares are: {known}")
+        actions = (*segment.actions, *(name for one in segment.action_landmarks for name in one))
+        for what, names, declared in (
+            ("subgoal", subgoals, vocabulary.subgoals),
+            ("action", actions, vocabulary.actions),
+        ):
+            for name in names:
+                if name not in declared:
+                    known = ", ".join(declared) or "none"
+                    raise ValueError(f"the run has no {what} {name!r}; the names that it declares are: {known}")
     if isinstance(query, InspectLo | LabelLo) and query.segment.subgoal is None:
         raise ValueError(f"a segment in {type(query).__name__} needs a subgoal, because the question is about it")
+
+
+def _boxes(landmarks: Sequence[Mapping[str, Sides]]) -> wire.Landmarks:
+    return [{name: _box(*sides) for name, sides in one.items()} for one in landmarks]
 
 
 def _box(left: float, top: float, right: float, bottom: float) -> wire.Box:

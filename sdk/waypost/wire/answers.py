@@ -4,8 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from waypost.wire.frames import Landmarks
-from waypost.wire.words import FrameHash, Json, Message, Name, Verdict
+from waypost.wire.frames import Pictured
+from waypost.wire.words import Json, Message, Name, Verdict
 
 __all__ = [
     "Answer",
@@ -26,16 +26,12 @@ class DemoSegment(Message):
     actions: list[Name] = Field(min_length=1, max_length=10_000, description="a_1 .. a_H.")
 
 
-class DemoReplay(Message):
+class DemoReplay(Pictured):
     """What an annotator saw of a demonstration, for those who look at it later. The learner does not use it."""
 
     states: list[Json] = Field(
         max_length=10_001, description="One JSON view of the domain per state, from the start to the last action."
     )
-    frames: list[FrameHash] = Field(
-        default_factory=list, max_length=10_001, description="One uploaded picture per state, or none."
-    )
-    landmarks: Landmarks = Field(default_factory=list)
 
 
 class HierDemoAnswer(Message):

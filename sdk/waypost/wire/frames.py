@@ -1,4 +1,4 @@
-"""Defines the messages about frames, the pictures of states, and about landmarks, the places of subgoals in them."""
+"""Defines the messages about frames, the pictures of states, and about landmarks, the places of choices in them."""
 
 from typing import Annotated
 
@@ -12,6 +12,7 @@ __all__ = [
     "FrameHashes",
     "FrameUpload",
     "Landmarks",
+    "Pictured",
 ]
 
 
@@ -51,11 +52,26 @@ class Box(Message):
         return self
 
 
-Landmarks = Annotated[
-    list[dict[Name, Box]],
-    Field(
+Landmarks = Annotated[list[dict[Name, Box]], Field(max_length=10_001)]
+"""Boxes in the pictures of states by subgoal, or by action: one entry per state, or one for all states."""
+
+
+class Pictured(Message):
+    """The base of messages with states: what people see of these states. It is never part of a query's content."""
+
+    frames: list[FrameHash] = Field(
+        default_factory=list,
         max_length=10_001,
+        description="One uploaded picture per state; empty if the web app draws the states itself. Pictures are not "
+        "part of the query's content: the same query with other pictures is the same query.",
+    )
+    landmarks: Landmarks = Field(
+        default_factory=list,
         description="Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; "
         "empty if that is not known. Landmarks are not part of the query's content.",
-    ),
-]
+    )
+    action_landmarks: Landmarks = Field(
+        default_factory=list,
+        description="Where actions lead in the pictures: boxes by action, one entry per state, or one for all states; "
+        "empty if that is not known. They are not part of the query's content either.",
+    )

@@ -5,8 +5,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from waypost.wire.answers import DemoSegment
-from waypost.wire.frames import Landmarks
-from waypost.wire.words import FrameHash, Json, Message
+from waypost.wire.frames import Pictured
+from waypost.wire.words import Json, Message
 
 __all__ = [
     "PlayHello",
@@ -51,7 +51,7 @@ class PlayMoves(Message):
     )
 
 
-class PlayStates(Message):
+class PlayStates(Pictured):
     """The states after the annotator's actions, sent by the learner."""
 
     type: Literal["states"]
@@ -61,12 +61,6 @@ class PlayStates(Message):
         max_length=10_001,
         description="The following states up to the end of the episode, as JSON views of the domain.",
     )
-    frames: list[FrameHash] = Field(
-        default_factory=list,
-        max_length=10_001,
-        description="One uploaded picture per state; empty if the web app draws the states itself.",
-    )
-    landmarks: Landmarks = Field(default_factory=list)
     ended: bool = Field(description="Whether the episode ended in the last state; later actions have no state.")
     succeeded: bool = Field(description="Whether the whole task is accomplished in the last state.")
 

@@ -5,8 +5,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from waypost.wire.answers import Answer
-from waypost.wire.frames import Landmarks
-from waypost.wire.words import FrameHash, Json, Message, Name, QueryState
+from waypost.wire.frames import Pictured
+from waypost.wire.words import Json, Message, Name, QueryState
 
 __all__ = [
     "AnswerPage",
@@ -26,19 +26,12 @@ __all__ = [
 ]
 
 
-class Segment(Message):
+class Segment(Pictured):
     """One segment (s_h, g_h, tau_h) of the learner's trajectory."""
 
     subgoal: Name | None = Field(description="The learner's subgoal; null for a flat policy.")
     states: list[Json] = Field(max_length=10_000, description="s_1 .. s_{H+1}, as JSON views of the domain.")
     actions: list[Name] = Field(max_length=10_000, description="a_1 .. a_H, one fewer than the states.")
-    frames: list[FrameHash] = Field(
-        default_factory=list,
-        max_length=10_000,
-        description="One uploaded picture per state; empty if the web app draws the states itself. Pictures are not "
-        "part of the query's content: the same query with other pictures is the same query.",
-    )
-    landmarks: Landmarks = Field(default_factory=list)
 
 
 class AskBase(Message):

@@ -25,11 +25,16 @@ class Names:
         if name not in self.subgoals:
             raise Unprocessable(at, f"{name!r} is not a subgoal of this run")
 
+    def check_action(self, name: str, at: Location) -> None:
+        """Refuse a name that is not an action of the run."""
+        if name not in self.actions:
+            raise Unprocessable(at, f"{name!r} is not an action of this run")
+
     def check_actions(self, names: Sequence[str | None], at: Location) -> None:
         """Refuse the first name that is not an action of the run."""
         for place, name in enumerate(names):
-            if name is not None and name not in self.actions:
-                raise Unprocessable([*at, place], f"{name!r} is not an action of this run")
+            if name is not None:
+                self.check_action(name, [*at, place])
 
 
 def check_ask(ask: wire.Ask, names: Names, at: Location) -> None:
@@ -98,20 +103,25 @@ def _check_segment(segment: wire.Segment, names: Names, at: Location) -> None:
             [*at, "frames"],
             f"has {len(segment.frames)} frames for {n_states} states; send one frame per state, or none",
         )
-    _check_landmarks(segment.landmarks, n_states, names, [*at, "landmarks"])
+    _check_landmarks(segment, n_states, names, at)
     names.check_actions(segment.actions, [*at, "actions"])
     if segment.subgoal is not None:
         names.check_subgoal(segment.subgoal, [*at, "subgoal"])
 
 
-def _check_landmarks(landmarks: wire.Landmarks, n_states: int, names: Names, at: Location) -> None:
-    if len(landmarks) not in (0, 1, n_states):
-        raise Unprocessable(
-            at, f"has {len(landmarks)} entries for {n_states} states; send one per state, one for all, or none"
-        )
-    for place, boxes in enumerate(landmarks):
+def _check_landmarks(shown: wire.Pictured, n_states: int, names: Names, at: Location) -> None:
+    for field, landmarks in (("landmarks", shown.landmarks), ("action_landmarks", shown.action_landmarks)):
+        if len(landmarks) not in (0, 1, n_states):
+            raise Unprocessable(
+                [*at, field],
+                f"has {len(landmarks)} entries for {n_states} states; send one per state, one for all, or none",
+            )
+    for place, boxes in enumerate(shown.landmarks):
         for name in boxes:
-            names.check_subgoal(name, [*at, place])
+            names.check_subgoal(name, [*at, "landmarks", place])
+    for place, boxes in enumerate(shown.action_landmarks):
+        for name in boxes:
+            names.check_action(name, [*at, "action_landmarks", place])
 
 
 def _check_demonstration(ask: wire.AskHierDemo, answer: wire.HierDemoAnswer, names: Names, at: Location) -> None:
@@ -132,7 +142,7 @@ def _check_demonstration(ask: wire.AskHierDemo, answer: wire.HierDemoAnswer, nam
     if answer.replay is not None:
         _check_length_or_none(answer.replay.states, total + 1, [*at, "replay", "states"])
         _check_length_or_none(answer.replay.frames, total + 1, [*at, "replay", "frames"])
-        _check_landmarks(answer.replay.landmarks, total + 1, names, [*at, "replay", "landmarks"])
+        _check_landmarks(answer.replay, total + 1, names, [*at, "replay"])
 
 
 def _check_length_or_none(given: Sequence[object], length: int, at: Location) -> None:

@@ -76,7 +76,8 @@ class Content:
         content = ask.model_dump(mode="json")
         text = canonical.text(content)
         for segment in [*content.get("segments", []), *content["context"]]:
-            del segment["frames"], segment["landmarks"]
+            for field in wire.Pictured.model_fields:
+                del segment[field]
         return cls(ask, text, canonical.digest(canonical.text(content)))
 
     @property

@@ -1,25 +1,38 @@
-"""A hand on the picture of the maze: it points at cells, and draws along them, with a mouse or with a finger."""
+"""A hand on a picture of cells: it points at cells, and draws along them, with a mouse or with a finger."""
 
+from dataclasses import dataclass
 from itertools import pairwise
 
 from playwright.sync_api import CDPSession, FloatRect, Page
 from tests.browser.kit import Cell
 
-CELLS = 17  # of the maze, on each side
 BETWEEN = 4  # where a pointer is seen between two cells
+
+
+@dataclass(frozen=True)
+class Board:
+    """A picture of cells."""
+
+    selector: str
+    rows: int
+    columns: int
+
+
+MAZE, CORRIDOR = Board("canvas", 17, 17), Board("img.shown", 1, 13)
 
 
 class Mouse:
     """Clicks and drags with the mouse alone."""
 
-    def __init__(self, page: Page) -> None:
-        self._page = page
+    def __init__(self, page: Page, board: Board = MAZE) -> None:
+        self._page, self._board = page, board
 
     def point(self, cell: Cell, beside: tuple[float, float] = (0, 0)) -> tuple[float, float]:
         """Where a cell is in the window, in pixels; `beside` is added, as (right, down)."""
-        box = box_of(self._page)
-        unit = box["width"] / CELLS
-        return box["x"] + (cell[1] + 0.5) * unit + beside[0], box["y"] + (cell[0] + 0.5) * unit + beside[1]
+        box = box_of(self._page, self._board)
+        x = box["x"] + (cell[1] + 0.5) * box["width"] / self._board.columns
+        y = box["y"] + (cell[0] + 0.5) * box["height"] / self._board.rows
+        return x + beside[0], y + beside[1]
 
     def click(self, cell: Cell, beside: tuple[float, float] = (0, 0)) -> None:
         """Click on a cell."""
@@ -42,8 +55,8 @@ class Mouse:
 class Finger(Mouse):
     """Taps and drags on a touch screen alone."""
 
-    def __init__(self, page: Page) -> None:
-        super().__init__(page)
+    def __init__(self, page: Page, board: Board = MAZE) -> None:
+        super().__init__(page, board)
         self._screen: CDPSession = page.context.new_cdp_session(page)
 
     def click(self, cell: Cell, beside: tuple[float, float] = (0, 0)) -> None:
@@ -69,8 +82,8 @@ class Finger(Mouse):
         self._screen.send("Input.dispatchTouchEvent", {"type": type_, "touchPoints": touched})
 
 
-def box_of(page: Page) -> FloatRect:
-    """The place of the map in the window."""
-    box = page.locator("canvas").bounding_box()
+def box_of(page: Page, board: Board = MAZE) -> FloatRect:
+    """The place of the picture in the window."""
+    box = page.locator(board.selector).bounding_box()
     assert box is not None
     return box

@@ -65,10 +65,17 @@ def test_landmarks_accompany_the_pictures_once_if_they_are_the_same_in_all_state
     ]
     near = {"west": (0, 1), "east": (4, 5), "target": (6, 7)}
     assert cells == [near, near | {"east": (8, 9)}, near]
+    moves = [{name: round(13 * box.left) for name, box in boxes.items()} for boxes in ask.context[0].action_landmarks]
+    assert moves == [{"west": 2, "east": 4}, {"west": 3, "east": 5}, {"west": 2, "east": 4}]
     [boxes] = ask.segments[0].landmarks
     assert boxes == ask.context[0].landmarks[0]
     assert (boxes["target"].top, boxes["target"].bottom) == (0, 1)
     checks.check_ask(ask, checks.Names.of(vocabulary(domain)), [])
+
+
+def test_queries_without_pictures_have_no_landmarks() -> None:
+    ask: Any = Translator(domain, instance).ask(InspectLo(walked((EAST, [1, 0]))[0]), 0, 0)
+    assert (ask.segments[0].landmarks, ask.segments[0].action_landmarks) == ([], [])
 
 
 def test_a_picture_is_taken_and_given_once() -> None:

@@ -86,6 +86,10 @@ def test_each_state_has_its_picture_uploaded_before_it_is_shown() -> None:
 
 def test_the_states_on_a_stage_have_their_landmarks() -> None:
     states = Stage(translator, keep).perform(moves(EAST, known=0))
+    assert [{a: round(13 * box.left) for a, box in boxes.items()} for boxes in states.action_landmarks] == [
+        {"east": 1},
+        {"west": 0, "east": 2},
+    ]
     assert [set(boxes) for boxes in states.landmarks] == [{"east", "target"}, {"west", "east", "target"}]
 
 

@@ -86,6 +86,14 @@ FAULTS: dict[str, tuple[Fault, str]] = {
     "a landmark by name": (lambda: with_members(landmarks=lambda s, i, v: {"end": (0, 0, 1, 1)}), "by the numbers"),
     "a landmark in pixels": (lambda: with_members(landmarks=lambda s, i, v: {0: (3, 4, 9, 8)}), "as shares of"),
     "a landmark without a side": (lambda: with_members(landmarks=lambda s, i, v: {0: (0, 0, 1)}), "as shares of"),
+    "a place of an action by name": (
+        lambda: with_members(action_landmarks=lambda s, i, v: {"left": (0, 0, 1, 1)}),
+        "by the numbers of actions, 0 to 1",
+    ),
+    "a place of an action in pixels": (
+        lambda: with_members(action_landmarks=lambda s, i, v: {1: (3, 4, 9, 8)}),
+        "action_landmarks returns (3, 4, 9, 8) for action 1; return its left, upper",
+    ),
     "a list as place": (lambda: with_members(place=lambda s, v: [v]), "return a tuple instead"),
     "a view of another shape": (
         lambda: with_members(lo_view=View((3,), lambda seen: seen)),

@@ -10,7 +10,7 @@ from gymnasium import spaces
 from gymnasium.utils.env_checker import check_env
 
 import waypost
-from waypost.domains import Ending, Landmarked, Pictured, Restorable, Solved, find_domain
+from waypost.domains import ActionLandmarked, Ending, Landmarked, Pictured, Restorable, Solved, find_domain
 from waypost.domains.conformance import check
 
 
@@ -133,6 +133,15 @@ def test_landmarks_are_given_by_the_names_of_subgoals() -> None:
     assert domain.landmarks(None, {"angle": 2}) == {1: (0, 0, 0.5, 1)}
     with pytest.raises(ValueError, match="'nothing' is no subgoal; the subgoals are: half, whole"):
         arm(landmarks=lambda state: {"nothing": (0, 0, 1, 1)}).landmarks(None, {})
+
+
+def test_places_of_actions_are_given_by_the_names_of_actions() -> None:
+    assert not isinstance(arm(), ActionLandmarked)
+    domain = arm(action_landmarks=lambda state: {"forth": (0, 0, state["angle"] / 4, 1)})
+    assert not isinstance(domain, Landmarked)
+    assert domain.action_landmarks(None, {"angle": 2}) == {domain.actions.index("forth"): (0, 0, 0.5, 1)}
+    with pytest.raises(ValueError, match="'half' is no action; the actions are: "):
+        arm(action_landmarks=lambda state: {"half": (0, 0, 1, 1)}).action_landmarks(None, {})
 
 
 def test_rules_in_names_make_an_oracle() -> None:

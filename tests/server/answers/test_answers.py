@@ -101,6 +101,7 @@ def test_an_idempotency_key_names_one_answer(service: Service) -> None:
                 ("states", {"states": [1, 2, 3]}),
                 ("frames", {"states": [1, 2], "frames": ["0" * 64]}),
                 ("landmarks", {"states": [1, 2], "landmarks": [{}, {}, {}]}),
+                ("action_landmarks", {"states": [1, 2], "action_landmarks": [{}, {}, {}]}),
             )
         ),
         (

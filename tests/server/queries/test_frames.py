@@ -78,5 +78,7 @@ def test_asking_again_with_other_pictures_changes_nothing(lite: Service) -> None
     assert lite.learner.ask(run, query(segments=[seen(WHITE, BLACK)])) == [first]
     boxes = {"north": {"left": 0, "top": 0, "right": 0.5, "bottom": 0.5}}
     assert lite.learner.ask(run, query(segments=[seen(BLACK, BLACK) | {"landmarks": [boxes]}])) == [first]
+    boxes = {"up": {"left": 0, "top": 0, "right": 0.5, "bottom": 0.5}}
+    assert lite.learner.ask(run, query(segments=[seen(BLACK, BLACK) | {"action_landmarks": [boxes]}])) == [first]
     other = seen(BLACK, BLACK) | {"actions": ["down"]}
     assert lite.learner.ask(run, query(segments=[other]), expect=409)["type"] == "/problems/different-content"

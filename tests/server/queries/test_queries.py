@@ -46,6 +46,9 @@ def test_the_same_query_twice_in_one_list_is_one_query(service: Service) -> None
         (query(segments=[{"subgoal": None, "states": [1, 2], "actions": ["left"]}]), ["segments", 0, "actions", 0]),
         (query(segments=[segment(2) | {"landmarks": [{"west": BOX}]}]), ["segments", 0, "landmarks", 0]),
         (query(segments=[segment(2) | {"landmarks": [{"north": BOX}] * 2}]), ["segments", 0, "landmarks"]),
+        (query(segments=[segment(2) | {"action_landmarks": [{"north": BOX}]}]), ["segments", 0, "action_landmarks", 0]),
+        (query(segments=[segment(2) | {"action_landmarks": [{"up": BOX}] * 2}]), ["segments", 0, "action_landmarks"]),
+        (query(context=[segment(2) | {"action_landmarks": [{"west": BOX}]}]), ["context", 0, "action_landmarks", 0]),
         *(
             (query(segments=[segment(1) | {"landmarks": [{"north": BOX | wrong}]}]), ["segments", 0, "landmarks", 0])
             for wrong in ({"left": 0.5}, {"bottom": 0.25}, {"right": 1.1})

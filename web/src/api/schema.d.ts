@@ -2840,13 +2840,8 @@ export interface components {
          */
         DemoReplayInput: {
             /**
-             * States
-             * @description One JSON view of the domain per state, from the start to the last action.
-             */
-            states: components["schemas"]["JsonValue"][];
-            /**
              * Frames
-             * @description One uploaded picture per state, or none.
+             * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
             frames?: string[];
             /**
@@ -2856,6 +2851,18 @@ export interface components {
             landmarks?: {
                 [key: string]: components["schemas"]["Box"];
             }[];
+            /**
+             * Action Landmarks
+             * @description Where actions lead in the pictures: boxes by action, one entry per state, or one for all states; empty if that is not known. They are not part of the query's content either.
+             */
+            action_landmarks?: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
+            /**
+             * States
+             * @description One JSON view of the domain per state, from the start to the last action.
+             */
+            states: components["schemas"]["JsonValue"][];
         };
         /**
          * DemoReplay
@@ -2863,13 +2870,8 @@ export interface components {
          */
         DemoReplay: {
             /**
-             * States
-             * @description One JSON view of the domain per state, from the start to the last action.
-             */
-            states: components["schemas"]["JsonValue"][];
-            /**
              * Frames
-             * @description One uploaded picture per state, or none.
+             * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
             frames: string[];
             /**
@@ -2879,6 +2881,18 @@ export interface components {
             landmarks: {
                 [key: string]: components["schemas"]["Box"];
             }[];
+            /**
+             * Action Landmarks
+             * @description Where actions lead in the pictures: boxes by action, one entry per state, or one for all states; empty if that is not known. They are not part of the query's content either.
+             */
+            action_landmarks: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
+            /**
+             * States
+             * @description One JSON view of the domain per state, from the start to the last action.
+             */
+            states: components["schemas"]["JsonValue"][];
         };
         /**
          * DemoSegment
@@ -5086,21 +5100,6 @@ export interface components {
          */
         SegmentInput: {
             /**
-             * Subgoal
-             * @description The learner's subgoal; null for a flat policy.
-             */
-            subgoal: string | null;
-            /**
-             * States
-             * @description s_1 .. s_{H+1}, as JSON views of the domain.
-             */
-            states: components["schemas"]["JsonValue"][];
-            /**
-             * Actions
-             * @description a_1 .. a_H, one fewer than the states.
-             */
-            actions: string[];
-            /**
              * Frames
              * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
              */
@@ -5112,12 +5111,13 @@ export interface components {
             landmarks?: {
                 [key: string]: components["schemas"]["Box"];
             }[];
-        };
-        /**
-         * Segment
-         * @description One segment (s_h, g_h, tau_h) of the learner's trajectory.
-         */
-        Segment: {
+            /**
+             * Action Landmarks
+             * @description Where actions lead in the pictures: boxes by action, one entry per state, or one for all states; empty if that is not known. They are not part of the query's content either.
+             */
+            action_landmarks?: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
             /**
              * Subgoal
              * @description The learner's subgoal; null for a flat policy.
@@ -5133,6 +5133,12 @@ export interface components {
              * @description a_1 .. a_H, one fewer than the states.
              */
             actions: string[];
+        };
+        /**
+         * Segment
+         * @description One segment (s_h, g_h, tau_h) of the learner's trajectory.
+         */
+        Segment: {
             /**
              * Frames
              * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
@@ -5145,6 +5151,28 @@ export interface components {
             landmarks: {
                 [key: string]: components["schemas"]["Box"];
             }[];
+            /**
+             * Action Landmarks
+             * @description Where actions lead in the pictures: boxes by action, one entry per state, or one for all states; empty if that is not known. They are not part of the query's content either.
+             */
+            action_landmarks: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
+            /**
+             * Subgoal
+             * @description The learner's subgoal; null for a flat policy.
+             */
+            subgoal: string | null;
+            /**
+             * States
+             * @description s_1 .. s_{H+1}, as JSON views of the domain.
+             */
+            states: components["schemas"]["JsonValue"][];
+            /**
+             * Actions
+             * @description a_1 .. a_H, one fewer than the states.
+             */
+            actions: string[];
         };
         /**
          * SendBack
@@ -5743,6 +5771,25 @@ export interface components {
          */
         PlayStates: {
             /**
+             * Frames
+             * @description One uploaded picture per state; empty if the web app draws the states itself. Pictures are not part of the query's content: the same query with other pictures is the same query.
+             */
+            frames: string[];
+            /**
+             * Landmarks
+             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
+             */
+            landmarks: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
+            /**
+             * Action Landmarks
+             * @description Where actions lead in the pictures: boxes by action, one entry per state, or one for all states; empty if that is not known. They are not part of the query's content either.
+             */
+            action_landmarks: {
+                [key: string]: components["schemas"]["Box"];
+            }[];
+            /**
              * Type
              * @constant
              */
@@ -5762,18 +5809,6 @@ export interface components {
              * @description The following states up to the end of the episode, as JSON views of the domain.
              */
             states: components["schemas"]["JsonValue"][];
-            /**
-             * Frames
-             * @description One uploaded picture per state; empty if the web app draws the states itself.
-             */
-            frames: string[];
-            /**
-             * Landmarks
-             * @description Where subgoals are in the pictures: boxes by subgoal, one entry per state, or one for all states; empty if that is not known. Landmarks are not part of the query's content.
-             */
-            landmarks: {
-                [key: string]: components["schemas"]["Box"];
-            }[];
             /**
              * Ended
              * @description Whether the episode ended in the last state; later actions have no state.

@@ -28,6 +28,7 @@ const news = (known: number, states: string[], more: Partial<PlayStates> = {}): 
   states,
   frames: [],
   landmarks: [],
+  action_landmarks: [],
   ended: false,
   succeeded: false,
   ...more,
@@ -41,6 +42,7 @@ describe('a demonstration from where the learner failed', () => {
     actions,
     frames,
     landmarks: [],
+    action_landmarks: [],
   });
   const context = [
     walked('east', ['s-2', 's-1'], ['right'], ['a', 'b']),

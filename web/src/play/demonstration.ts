@@ -1,7 +1,16 @@
 // A demonstration that is being played, as a list of moves. Pure: no function changes its arguments.
 import type { AnswerOf, AskOf, DemoSegment, Json, PlayStates, Price } from '../api/types';
 import { t } from '../language/language';
-import { buildTape, landmarksAt, lastFrame, type Landmarks, type Stretch, type Tape } from '../player/tape';
+import {
+  buildTape,
+  landmarksAt,
+  lastFrame,
+  NO_LANDMARKS,
+  sentLandmarks,
+  type Landmarks,
+  type Stretch,
+  type Tape,
+} from '../player/tape';
 import { count } from '../ui/format';
 
 /** A move of the annotator. A demonstration is a list of moves, so that each can be undone, including starting over. */
@@ -36,7 +45,14 @@ export function playsOn(ask: Ask): boolean {
 }
 
 export function begin(ask: Ask, moves: readonly Move[] = []): Demonstration {
-  return { moves, states: [ask.state], pictures: [null], landmarks: [{}], ended: false, succeeded: false };
+  return {
+    moves,
+    states: [ask.state],
+    pictures: [null],
+    landmarks: [NO_LANDMARKS],
+    ended: false,
+    succeeded: false,
+  };
 }
 
 /** Return the segments since the last start. */
@@ -123,7 +139,7 @@ export function learn(demonstration: Demonstration, news: PlayStates): Demonstra
   const states = [...demonstration.states.slice(0, news.known), ...news.states];
   const pictures = states.map((_, at) => news.frames[at - news.known] ?? demonstration.pictures[at] ?? null);
   const landmarks = states.map((_, at) =>
-    at < news.known ? (demonstration.landmarks[at] ?? {}) : landmarksAt(news.landmarks, at - news.known),
+    at < news.known ? (demonstration.landmarks[at] ?? NO_LANDMARKS) : landmarksAt(news, at - news.known),
   );
   const { ended, succeeded } = news;
   const moves = ended ? upTo(demonstration.moves, states.length - 1) : demonstration.moves;
@@ -142,12 +158,13 @@ export function costOf(demonstration: Demonstration, price: Price): number {
 export function answerOf(demonstration: Demonstration, withReplay: boolean): AnswerOf<'hier_demo'> | null {
   const segments = segmentsOf(demonstration);
   if (segments.length === 0 || isBehind(demonstration)) return null;
-  const { states, pictures } = demonstration;
-  const landmarks = demonstration.landmarks.some((one) => Object.keys(one).length > 0)
-    ? [...demonstration.landmarks]
-    : [];
+  const { states, pictures, landmarks } = demonstration;
   const frames = pictures.filter((picture) => picture !== null);
-  const replay = { states: [...states], frames: frames.length === states.length ? frames : [], landmarks };
+  const replay = {
+    states: [...states],
+    frames: frames.length === states.length ? frames : [],
+    ...sentLandmarks(landmarks),
+  };
   return { kind: 'hier_demo', segments, replay: withReplay ? replay : null };
 }
 

@@ -245,13 +245,15 @@ export class Play {
     return players.toggle(begin);
   }
 
-  /** Before the first step of a segment, pointing chooses its subgoal. */
+  /** Before the first step of a segment, pointing chooses its subgoal. With a subgoal, it carries out an action. */
   #pointing(): Pointing {
-    const { subgoals } = this.#options.vocabulary;
+    const { subgoals, actions } = this.#options.vocabulary;
     const mayChoose = !this.ask.flat && !this.over && !this.underway && !this.looksBack;
     const choose = (name: string): void => this.run(`choose:${subgoals.indexOf(name)}`);
+    const mayAct = !this.over && !this.looksBack && (this.ask.flat || this.current !== null);
+    const act = (name: string): void => this.run(`act:${actions.indexOf(name)}`);
     const show = this.playsOn ? (frame: number): void => this.seek(frame) : null;
-    return { show, pick: show, choose: mayChoose ? choose : null, labeling: null };
+    return { show, pick: show, choose: mayChoose ? choose : null, act: mayAct ? act : null, labeling: null };
   }
 
   #scene(): Scene {

@@ -21,6 +21,8 @@ const vocabulary: Vocabulary = {
 const price: Price = { fixed: 0, per_action: 1, per_segment: 2 };
 const GOAL = 3;
 
+const boxAt = (state: number) => ({ left: state / 4, top: 0, right: (state + 1) / 4, bottom: 1 });
+
 /** A demonstration, and a learner's environment that is a line of cells and replies when told to. */
 class Scenario {
   told: PlayMoves[] = [];
@@ -69,6 +71,7 @@ class Scenario {
       states: states.slice(known),
       frames: states.slice(known).map((state) => `picture of ${state}`),
       landmarks: [{ door: { left: 0, top: 0, right: 0.25, bottom: 1 } }],
+      action_landmarks: states.slice(known).map((state) => ({ right: boxAt(state + 1) })),
       ended: succeeded,
       succeeded,
     });
@@ -120,8 +123,22 @@ describe('playing', () => {
   it('has the landmarks of every state, and keeps them with the states', () => {
     const scenario = new Scenario().here();
     scenario.walk('choose:0', 'act:1', 'act:1', 'clear');
-    const boxes = { door: { left: 0, top: 0, right: 0.25, bottom: 1 } };
-    expect(scenario.play.scene.tape.landmarks).toEqual([boxes, boxes]);
+    const door = { left: 0, top: 0, right: 0.25, bottom: 1 };
+    expect(scenario.play.scene.tape.landmarks).toEqual([
+      { subgoals: { door }, actions: { right: boxAt(1) } },
+      { subgoals: { door }, actions: { right: boxAt(2) } },
+    ]);
+  });
+
+  it('carries out an action that is pointed at, once there is a subgoal to move toward', () => {
+    const scenario = new Scenario().here();
+    expect(scenario.play.pointing.act).toBeNull();
+    scenario.walk('choose:0');
+    scenario.play.pointing.act?.('right');
+    scenario.reply();
+    expect(scenario.play.demonstration.states).toEqual([0, 1]);
+    scenario.walk('reached');
+    expect(scenario.play.pointing.act).toBeNull();
   });
 
   it('takes a subgoal that is pointed at, until the first step', () => {
@@ -183,6 +200,7 @@ describe('playing on from where the learner failed', () => {
     actions,
     frames: [],
     landmarks: [],
+    action_landmarks: [],
   });
   const context = [
     walked('door', [2, 1], ['left']),

@@ -1,6 +1,16 @@
 import { describe, expect, it } from 'vitest';
 import * as players from './player';
-import { actionAt, askedFrames, buildTape, describeFrame, stops, stretchAt } from './tape';
+import {
+  actionAt,
+  askedFrames,
+  buildTape,
+  describeFrame,
+  landmarksAt,
+  NO_LANDMARKS,
+  sentLandmarks,
+  stops,
+  stretchAt,
+} from './tape';
 
 const box = (left: number) => ({ left, top: 0, right: 1, bottom: 1 });
 const one = {
@@ -13,6 +23,7 @@ const one = {
   actions: ['up', 'up'],
   frames: ['a', 'b', 'c'],
   landmarks: [{ north: box(0.1) }],
+  action_landmarks: [],
 };
 const two = {
   subgoal: 'east',
@@ -23,6 +34,7 @@ const two = {
   actions: ['right'],
   frames: [],
   landmarks: [],
+  action_landmarks: [],
 };
 
 describe('a tape', () => {
@@ -47,10 +59,17 @@ describe('a tape', () => {
   });
 
   it('knows the landmarks of each frame: sent for each state, once for all states, or not at all', () => {
-    const sent = { ...two, landmarks: [{}, { east: box(0.2) }] };
-    const north = { north: box(0.1) };
-    expect(buildTape([one], [sent]).landmarks).toEqual([north, north, north, { east: box(0.2) }]);
-    expect(tape.landmarks).toEqual([north, north, north, {}]);
+    const right = { right: box(0.3) };
+    const sent = { ...two, landmarks: [{}, { east: box(0.2) }], action_landmarks: [right] };
+    const north = { subgoals: { north: box(0.1) }, actions: {} };
+    const east = { subgoals: { east: box(0.2) }, actions: right };
+    expect(buildTape([one], [sent]).landmarks).toEqual([north, north, north, east]);
+    expect(tape.landmarks).toEqual([north, north, north, NO_LANDMARKS]);
+  });
+
+  it('sends landmarks on as they came, and none where there are none', () => {
+    const sent = { landmarks: [{}, { east: box(0.2) }], action_landmarks: [] };
+    expect(sentLandmarks([0, 1].map((state) => landmarksAt(sent, state)))).toEqual(sent);
   });
 
   it('does not join what does not meet', () => {
@@ -84,7 +103,10 @@ describe('a tape', () => {
   it('holds segments without actions', () => {
     const empty = buildTape(
       [],
-      [{ subgoal: 'west', states: [[1, 1]], actions: [], frames: [], landmarks: [] }, two],
+      [
+        { subgoal: 'west', states: [[1, 1]], actions: [], frames: [], landmarks: [], action_landmarks: [] },
+        two,
+      ],
     );
     expect(empty.frames).toHaveLength(2);
     expect(stops(empty)).toEqual([0, 1]);

@@ -28,6 +28,11 @@ export interface Pointing {
   readonly pick: ((frame: number) => void) | null;
   /** Choose a subgoal for the current segment, or the next one of a demonstration. Null: none is asked for now. */
   readonly choose: ((subgoal: string) => void) | null;
+  /**
+   * Label the state shown with an action and go on to the next, or carry the action out in a demonstration. Null: no
+   * action is asked for in this state.
+   */
+  readonly act: ((action: string) => void) | null;
   /** Null if the query asks for no labels. */
   readonly labeling: Labeling | null;
 }

@@ -3,8 +3,19 @@ import type { Box, Json, Segment } from '../api/types';
 import { t } from '../language/language';
 import type { Player } from './player';
 
-/** Where subgoals are in a picture, by subgoal. */
-export type Landmarks = Readonly<Record<string, Box>>;
+/** Boxes in a picture, by the name of the subgoal or action. */
+export type Boxes = Readonly<Record<string, Box>>;
+
+/** Where subgoals are in a picture, and where actions lead. */
+export interface Landmarks {
+  readonly subgoals: Boxes;
+  readonly actions: Boxes;
+}
+
+/** The landmarks of several states as a message has them. */
+export type SentLandmarks = Partial<Pick<Segment, 'landmarks' | 'action_landmarks'>>;
+
+export const NO_LANDMARKS: Landmarks = { subgoals: {}, actions: {} };
 
 /** A segment on the tape: the frames from `first` to `last`, both included. */
 export interface Stretch {
@@ -52,7 +63,7 @@ export function buildTape(context: readonly Segment[], asked: readonly Segment[]
     const skipped = joined ? 1 : 0;
     frames.push(...segment.states.slice(skipped));
     pictures.push(...segment.states.map((_, state) => segment.frames[state] ?? null).slice(skipped));
-    landmarks.push(...segment.states.map((_, state) => landmarksAt(segment.landmarks, state)).slice(skipped));
+    landmarks.push(...segment.states.map((_, state) => landmarksAt(segment, state)).slice(skipped));
     const last = frames.length - 1;
     const first = last - segment.states.length + 1;
     return {
@@ -70,8 +81,18 @@ export function buildTape(context: readonly Segment[], asked: readonly Segment[]
 }
 
 /** Return the landmarks of a state. The learner sends an entry for each state, one for all states, or none. */
-export function landmarksAt(sent: readonly Landmarks[] | undefined, state: number): Landmarks {
-  return (sent?.length === 1 ? sent[0] : sent?.[state]) ?? {};
+export function landmarksAt(sent: SentLandmarks, state: number): Landmarks {
+  const boxesAt = (boxes: readonly Boxes[] = []): Boxes => boxes[boxes.length === 1 ? 0 : state] ?? {};
+  return { subgoals: boxesAt(sent.landmarks), actions: boxesAt(sent.action_landmarks) };
+}
+
+/** Return the landmarks of states as a message has them. */
+export function sentLandmarks(states: readonly Landmarks[]): Required<SentLandmarks> {
+  const sent = (boxes: Boxes[]): Boxes[] => (boxes.some((one) => Object.keys(one).length > 0) ? boxes : []);
+  return {
+    landmarks: sent(states.map((one) => one.subgoals)),
+    action_landmarks: sent(states.map((one) => one.actions)),
+  };
 }
 
 export function lastFrame(tape: Tape): number {

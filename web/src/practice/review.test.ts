@@ -18,6 +18,7 @@ const segment = (subgoal: string, from: number, n: number) => ({
   actions: Array.from({ length: n }, () => 'right'),
   frames: [],
   landmarks: [],
+  action_landmarks: [],
 });
 const before = segment('north', 0, 2);
 const ask = (kind: string, segments: object[]): Answerable =>

@@ -76,7 +76,7 @@ function seenUntil(worked: Worked, moment: number): Demonstration {
     moves,
     states,
     pictures: states.map((_, state) => answer.replay?.frames[state] ?? null),
-    landmarks: states.map((_, state) => landmarksAt(answer.replay?.landmarks, state)),
+    landmarks: states.map((_, state) => landmarksAt(answer.replay ?? {}, state)),
     ended: isOver,
     succeeded: isOver,
   };

@@ -8,7 +8,14 @@ function sceneOf(at: number, current: number | null, ...lengths: number[]): Scen
   const segments = lengths.map((length) => {
     const states = Array.from({ length: length + 1 }, (_, step) => state + step);
     state += length;
-    return { subgoal: 'go', states, actions: states.slice(1).map(() => 'up'), frames: [], landmarks: [] };
+    return {
+      subgoal: 'go',
+      states,
+      actions: states.slice(1).map(() => 'up'),
+      frames: [],
+      landmarks: [],
+      action_landmarks: [],
+    };
   });
   const vocabulary = { domain: 'line', renderer: 'line', subgoals: ['go'], actions: ['up'] };
   return { instance: null, tape: buildTape([], segments), vocabulary, at, current, labels: [] };

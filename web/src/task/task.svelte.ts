@@ -31,13 +31,18 @@ export class Task {
   readonly tape;
   readonly stops;
   readonly bindings;
-  readonly pointing: Pointing;
   player = $state.raw(players.player(0, 0));
   labels: Labels | null = $state.raw(null);
   hint = $state(''); // why a key did nothing
   readonly answer: Answer | null = $derived.by(() => answerOf(this.labels));
   readonly scene: Scene = $derived.by(() => this.#scene());
+  readonly pointing: Pointing = $derived.by(() => this.#pointing());
 
+  /** Whether the state shown needs an action. */
+  readonly #asksForAction: boolean = $derived.by(() => {
+    const state = this.#frames.indexOf(this.player.at);
+    return this.labels !== null && this.labels.kind !== 'label_hi' && state in this.labels.actions;
+  });
   readonly #options: TaskOptions;
   readonly #events: TaskEvents;
   readonly #frames: readonly number[]; // frame of each asked state
@@ -53,7 +58,6 @@ export class Task {
     this.bindings = bindingsFor(ask.kind, vocabulary);
     this.#frames = askedFrames(this.tape);
     this.labels = (draft === null ? undefined : draftOf(draft)) ?? newLabels(ask);
-    this.pointing = this.#pointing();
     this.player = this.#firstLook();
     this.#showCursor();
   }
@@ -117,11 +121,16 @@ export class Task {
 
   #pointing(): Pointing {
     const of = this.labels === null ? null : this.labels.kind === 'label_hi' ? 'subgoals' : 'actions';
-    const { subgoals } = this.#options.vocabulary;
+    const { subgoals, actions } = this.#options.vocabulary;
+    const act = (name: string): void => {
+      this.seek(this.player.at); // while it plays, the state shown is not the next one to label
+      this.run(`choose:${actions.indexOf(name)}`);
+    };
     return {
       show: (frame) => this.seek(frame),
       pick: (frame) => this.pick(frame),
       choose: of === 'subgoals' ? (name) => this.run(`choose:${subgoals.indexOf(name)}`) : null,
+      act: this.#asksForAction ? act : null,
       labeling: of && { of, draw: (choices, end) => this.#draw(choices, end) },
     };
   }

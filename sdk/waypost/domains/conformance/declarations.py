@@ -10,6 +10,7 @@ from gymnasium import spaces
 from waypost.domains.conformance.episodes import trials
 from waypost.domains.contract import Domain, Horizons
 from waypost.domains.parts import (
+    ActionLandmarked,
     Centered,
     Cropped,
     Ending,
@@ -90,7 +91,11 @@ def parts_fit(domain: Domain) -> Iterator[str]:
     if isinstance(domain, Pictured):
         yield from _picture(domain.frame(env))
     if isinstance(domain, Landmarked):
-        yield from _landmarks(domain.landmarks(domain.instance_view(instance), start), len(domain.subgoals))
+        boxes = domain.landmarks(domain.instance_view(instance), start)
+        yield from _boxes("landmarks", boxes, "subgoal", len(domain.subgoals))
+    if isinstance(domain, ActionLandmarked):
+        boxes = domain.action_landmarks(domain.instance_view(instance), start)
+        yield from _boxes("action_landmarks", boxes, "action", len(domain.actions))
     if isinstance(domain, Ending):
         for subgoal in range(len(domain.subgoals)):
             found = domain.outcome(instance, start, domain.state_view(env), subgoal)
@@ -122,15 +127,16 @@ def _picture(pixels: Any) -> Iterator[str]:
         yield f"frame returns a picture of {pixels.shape[:2]} pixels; at most {LARGEST_PICTURE} per side are possible."
 
 
-def _landmarks(boxes: Any, subgoals: int) -> Iterator[str]:
-    if not isinstance(boxes, Mapping) or not set(boxes) <= set(range(subgoals)):
-        yield f"landmarks returns {boxes!r}; return boxes by the numbers of subgoals, 0 to {subgoals - 1}."
+def _boxes(member: str, boxes: Any, what: str, choices: int) -> Iterator[str]:
+    """Check the boxes that a member of the domain returns for some of its choices: subgoals or actions."""
+    if not isinstance(boxes, Mapping) or not set(boxes) <= set(range(choices)):
+        yield f"{member} returns {boxes!r}; return boxes by the numbers of {what}s, 0 to {choices - 1}."
         return
-    for subgoal, box in boxes.items():
+    for choice, box in boxes.items():
         left, top, right, bottom = box if np.shape(box) == (4,) else (0, 0, 0, 0)
         if not (0 <= left < right <= 1 and 0 <= top < bottom <= 1):
             yield (
-                f"landmarks returns {box!r} for subgoal {subgoal}; return its left, upper, right and lower side, as "
+                f"{member} returns {box!r} for {what} {choice}; return its left, upper, right and lower side, as "
                 "shares of the picture's width and height, 0 to 1."
             )
 

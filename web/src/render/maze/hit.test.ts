@@ -22,7 +22,16 @@ const SUBGOALS = ['north', 'south', 'west', 'east', 'go_to_target', 'dance'];
 const tapeOf = (...states: number[][]): ReturnType<typeof buildTape> =>
   buildTape(
     [],
-    [{ subgoal: 'north', states, actions: states.slice(1).map(() => 'up'), frames: [], landmarks: [] }],
+    [
+      {
+        subgoal: 'north',
+        states,
+        actions: states.slice(1).map(() => 'up'),
+        frames: [],
+        landmarks: [],
+        action_landmarks: [],
+      },
+    ],
   );
 
 describe('the places of subgoals', () => {

@@ -40,6 +40,7 @@ function walked(start: Cell, segments: readonly (readonly [string, string])[], b
       actions: Array.from(moves, (move) => NAMES[move] ?? ''),
       frames: [],
       landmarks: [],
+      action_landmarks: [],
     };
   });
   return buildTape(all.slice(0, before), all.slice(before));

@@ -8,11 +8,14 @@ import {
   buildTape,
   landmarksAt,
   lastFrame,
+  sentLandmarks,
   stops,
   stretchAt,
   type Tape,
 } from '../../player/tape';
 import type { Label, Scene, Step } from '../../player/scene';
+
+const NONE = sentLandmarks([]);
 
 /** A query in the player. It can only be watched. */
 export class Replay {
@@ -69,7 +72,7 @@ export class Replay {
 /** Return the learner's trajectory; for a demonstration, the annotator's, as far as its states are known. */
 export function tapeOf({ ask, answer }: Pick<Query, 'ask' | 'answer'>, step: Step | null): Tape {
   if (ask.kind !== 'hier_demo') return buildTape(ask.context, ask.segments);
-  const start: Segment = { subgoal: null, states: [ask.state], actions: [], frames: [], landmarks: [] };
+  const start: Segment = { subgoal: null, states: [ask.state], actions: [], frames: [], ...NONE };
   const demonstrated = answer?.kind === 'hier_demo' ? segmentsOf(ask.state, answer, step) : null;
   if (demonstrated !== null) return buildTape(ask.context, demonstrated, true);
   return { ...buildTape(ask.context, [start], true), goesOn: true };
@@ -85,11 +88,12 @@ function segmentsOf(first: Json, answer: AnswerOf<'hier_demo'>, step: Step | nul
     const [begin, end] = [before, (before += actions.length) + 1];
     if (step === null) {
       const states = replay?.states.slice(begin, end) ?? [];
-      const landmarks = states.map((_, at) => landmarksAt(replay?.landmarks, begin + at));
-      return { subgoal, states, actions, frames: replay?.frames?.slice(begin, end) ?? [], landmarks };
+      const landmarks = states.map((_, at) => landmarksAt(replay ?? {}, begin + at));
+      const frames = replay?.frames?.slice(begin, end) ?? [];
+      return { subgoal, states, actions, frames, ...sentLandmarks(landmarks) };
     }
     const states = [state, ...actions.map((action) => (state = step(state, action)))];
-    return { subgoal, states, actions, frames: [], landmarks: [] };
+    return { subgoal, states, actions, frames: [], ...NONE };
   });
 }
 

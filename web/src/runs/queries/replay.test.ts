@@ -11,6 +11,7 @@ describe('the replay of a query', () => {
     actions: ['up', 'up', 'left'],
     frames: [],
     landmarks: [],
+    action_landmarks: [],
   };
 
   it('shows where the segment should have ended, and no label after that', () => {
@@ -54,6 +55,7 @@ describe('the replay of a query', () => {
         actions: ['left'],
         frames: [],
         landmarks: [],
+        action_landmarks: [],
       },
     ];
     const ask = { kind: 'hier_demo', context, state: [5, 2] } as unknown as Query['ask'];
@@ -79,14 +81,19 @@ describe('the replay of a query', () => {
       { subgoal: 'north', actions: ['up', 'up'] },
       { subgoal: 'east', actions: ['right'] },
     ];
-    const replay = { states: ['s1', 's2', 's3', 's4'], frames: ['a', 'b', 'c', 'd'], landmarks: [] };
+    const replay = {
+      states: ['s1', 's2', 's3', 's4'],
+      frames: ['a', 'b', 'c', 'd'],
+      landmarks: [],
+      action_landmarks: [],
+    };
     const tape = tapeOf({ ask, answer: { kind: 'hier_demo', segments, replay } }, null);
     expect([tape.frames, tape.pictures, tape.goesOn]).toEqual([replay.states, replay.frames, false]);
     expect(tape.stretches.map(({ first, last, subgoal }) => [first, last, subgoal])).toEqual([
       [0, 2, 'north'],
       [2, 3, 'east'],
     ]);
-    const bare = { ...replay, frames: [], landmarks: [] };
+    const bare = { ...replay, frames: [], landmarks: [], action_landmarks: [] };
     expect(tapeOf({ ask, answer: { kind: 'hier_demo', segments, replay: bare } }, null).pictures).toEqual([
       null,
       null,

@@ -19,7 +19,14 @@ function ask(subgoals: (string | null)[], suggestion: string[] | null = null): A
     question: '',
     instance: null,
     context: [],
-    segments: subgoals.map((subgoal) => ({ subgoal, states: [0], actions: [], frames: [], landmarks: [] })),
+    segments: subgoals.map((subgoal) => ({
+      subgoal,
+      states: [0],
+      actions: [],
+      frames: [],
+      landmarks: [],
+      action_landmarks: [],
+    })),
     suggestion: suggestion && { kind: 'label_hi', subgoals: suggestion },
   };
 }

@@ -9,6 +9,7 @@ const segment = (actions: string[]) => ({
   actions,
   frames: [],
   landmarks: [],
+  action_landmarks: [],
 });
 
 /** One segment of up, right, right; the learner ended it at `end`, or nowhere. */

@@ -1,7 +1,7 @@
-// The landmarks of a picture: where its subgoals are, and what choosing one would mean now.
-import type { Box } from '../api/types';
-import { tagOf } from '../keys/tags';
-import type { Scene } from '../player/scene';
+// The landmarks of subgoals in a picture: where they are, and what choosing one would mean now.
+import type { Box } from '../../api/types';
+import { tagOf } from '../../keys/tags';
+import type { Scene } from '../../player/scene';
 
 /** A box in the picture, and the subgoals that have it. */
 export interface Landmark {
@@ -23,7 +23,7 @@ export function landmarksOf(scene: Scene): Landmark[] {
   const current = scene.tape.stretches[scene.current ?? -1];
   const chosen = scene.labels.find((label) => label.frame === current?.first)?.name;
   const found = new Map<string, Landmark>();
-  for (const [subgoal, box] of Object.entries(scene.tape.landmarks[scene.at] ?? {})) {
+  for (const [subgoal, box] of Object.entries(scene.tape.landmarks[scene.at]?.subgoals ?? {})) {
     const place = [box.left, box.top, box.right, box.bottom].join();
     const mark: Mark = {
       subgoal,

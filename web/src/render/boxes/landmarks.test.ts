@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import type { Box } from '../api/types';
-import type { Label, Scene } from '../player/scene';
-import { buildTape } from '../player/tape';
+import type { Box } from '../../api/types';
+import type { Label, Scene } from '../../player/scene';
+import { buildTape } from '../../player/tape';
 import { fitted, landmarksOf, nextOf } from './landmarks';
 
 const stair = { left: 0.8, top: 0.8, right: 0.85, bottom: 0.85 };
@@ -9,7 +9,14 @@ const door = { left: 0.8, top: 0.2, right: 0.9, bottom: 0.4 };
 const boxes = { stair, stair_back: stair, door };
 
 function sceneOf(landmarks: Record<string, Box>, labels: Label[] = [], current: number | null = 0): Scene {
-  const segment = { subgoal: 'door', states: [1, 2], actions: ['up'], frames: [], landmarks: [landmarks] };
+  const segment = {
+    subgoal: 'door',
+    states: [1, 2],
+    actions: ['up'],
+    frames: [],
+    landmarks: [landmarks],
+    action_landmarks: [],
+  };
   return {
     instance: null,
     tape: buildTape([], [segment]),
