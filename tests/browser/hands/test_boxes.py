@@ -1,6 +1,6 @@
 """Actions on pictures and texts: what is asked about an action is answered where it leads, by mouse or touch alone."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -24,6 +24,13 @@ ACTS = ["say_hello", "ask_city", *(f"tell_about_{what}" for what in ("flights", 
 TALK = {"domain": "talk", "subgoals": ["ask", "offer"], "actions": ACTS, "renderer": "talk"}
 
 OpenWith = Callable[[str], tuple[Page, Mouse]]
+
+
+@pytest.fixture(autouse=True)
+def finish(learner: Learner) -> Iterator[None]:
+    """Leave no run behind whose domain has no practice: other tests share the server."""
+    yield
+    learner.finish_all()
 
 
 @pytest.fixture(params=["mouse", "touch"])
