@@ -16,10 +16,11 @@ TALL, SHORT = {"width": 390, "height": 844}, {"width": 390, "height": 664}
     ("kind", "rows", "size", "least"),
     [
         ("label_hi", "Segments", TALL, 4 * 35),
-        ("label_hi", "Segments", SHORT, 1.5 * 35),
+        ("label_hi", "Segments", SHORT, 3 * 35),
         ("label_lo", "States", TALL, 1.2 * 52),
+        ("label_lo", "States", SHORT, 48),
         ("label_full", "States", TALL, 2.2 * 52),
-        ("label_full", "States", SHORT, 52),
+        ("label_full", "States", SHORT, 1.6 * 52),
     ],
 )
 def test_the_rows_are_in_sight(
