@@ -30,7 +30,13 @@ _NOT_RUN = re.compile(r"not run: (.+); (\S+)")
 _INSTEAD = re.compile(r"tested with `([^`]+)` instead of `([^`]+)`")
 _SAVED = re.compile(r"saved as `([^`]+)`")
 _BESIDE = "<!-- tested beside a server with a query -->"
-_LITTLE = " ".join(f"train_{level}.{rows}=64" for level in ("hi", "lo") for rows in ("least", "most", "idle"))
+
+
+def _little(networks: tuple[str, ...]) -> str:
+    return " ".join(f"train_{network}.{rows}=64" for network in networks for rows in ("least", "most", "idle"))
+
+
+_LITTLE, _LITTLE_GENERAL = _little(("hi", "lo")), _little(("shared",))
 
 
 @dataclass(frozen=True)
@@ -91,7 +97,8 @@ def shortened(text: str) -> str:
             line = re.sub(r"--episodes \d+", "", line)
             values = re.search(r'--values "([^"]*)"', line)
             line = line.replace(values[0], "") if values else line
-            short = f'--episodes 2 --threads 1 --values "{values[1] if values else ""} {_LITTLE}"'
+            little = _LITTLE_GENERAL if "--preset general" in line else _LITTLE
+            short = f'--episodes 2 --threads 1 --values "{values[1] if values else ""} {little}"'
             line = re.sub(r"(waypost train [\w-]+)", rf"\1 {short}", line)
         lines.append(line)
     return "\n".join(lines)

@@ -44,12 +44,21 @@ class Mouse:
 
     def draw(self, *cells: Cell) -> None:
         """Draw along the lines from each cell to the next."""
+        self.begin(*cells)
+        self.end(cells[-1])
+
+    def begin(self, *cells: Cell) -> None:
+        """Draw along the lines from each cell to the next, and stay on the last one."""
         mouse = self._page.mouse
         mouse.move(*self.point(cells[0]))
         mouse.down()
         for cell in cells[1:]:
             mouse.move(*self.point(cell), steps=BETWEEN)
-        mouse.up()
+
+    def end(self, cell: Cell) -> None:
+        """Draw on to a cell, and stop."""
+        self._page.mouse.move(*self.point(cell), steps=BETWEEN)
+        self._page.mouse.up()
 
 
 class Finger(Mouse):

@@ -112,6 +112,23 @@ def test_a_way_goes_on_through_several_segments(served: Served, learner: Learner
     assert learner.answer_of(query)["actions"] == ["east"] * 2 + ["west"] * 3 + ["east"] * 2
 
 
+def test_a_way_that_is_drawn_while_the_next_question_comes_labels_neither(served: Served, open_page: Open) -> None:
+    with client_of(served) as client:
+        query, run = ask_with_pictures(client, lambda sigma: LabelLo(sigma[1], sigma[:1]))
+        asked = client.query(query).ask
+        client.ask(run, [asked.model_copy(update={"ordinal": 1, "question": "The next question"})])
+    page = open_page(f"/work?run={run}", motion="reduce")
+    wait_for_heading(page, QUESTION)
+    page.locator("img.shown").wait_for()
+    hand = Mouse(page, CORRIDOR)
+    hand.begin((0, 4), (0, 2))
+    page.keyboard.press("Shift+Enter")
+    wait_for_heading(page, "The next question")
+    hand.end((0, 1))
+    shows(page, 4)
+    expect(page.get_by_text("0 of 4")).to_be_visible()
+
+
 def test_a_box_says_which_action_it_means(served: Served, open_page: Open) -> None:
     with client_of(served) as client:
         _, run = ask_with_pictures(client, lambda sigma: LabelLo(sigma[1], sigma[:1]))

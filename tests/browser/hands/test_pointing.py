@@ -122,6 +122,22 @@ def test_the_right_way_is_drawn_through_several_segments(learner: Learner, open_
     assert learner.answer_of(query)["actions"] == [*["up"] * 4, "left", *["up"] * 4, *["right"] * 4]
 
 
+def test_a_way_that_is_drawn_while_the_next_question_comes_labels_neither(learner: Learner, open_page: Open) -> None:
+    run = learner.create_run("pointing")
+    asked = ask("label_lo")
+    learner.ask(run, asked, asked | {"ordinal": asked["ordinal"] + 1, "question": "The next question"})
+    page = open_page(f"/work?run={run}", motion="reduce")
+    wait_for_heading(page, asked["question"])
+    hand = Mouse(page)
+    expect(page.get_by_text("0 of 7")).to_be_visible()
+    hand.begin((8, 1), (6, 1))
+    page.keyboard.press("Shift+Enter")
+    wait_for_heading(page, "The next question")
+    hand.end((6, 4))
+    shows(page, "step 7 of 13, action up, subgoal east")
+    expect(page.get_by_text("0 of 7")).to_be_visible()
+
+
 def test_a_way_beside_the_path_says_why_nothing_is_labeled(learner: Learner, open_with: OpenWith) -> None:
     _, page, hand = begin(learner, open_with, ask("label_lo"))
     hand.draw((14, 13), (14, 15))
