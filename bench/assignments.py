@@ -2,8 +2,9 @@
 
 A real server process is used over loopback, with queries of about 2 kB and annotators who do not pause. A cycle is one
 lease and one answer, each acknowledged after it is on disk. In a chain, the reply to the answer contains the next
-lease, so a cycle is one call. In batches, one call leases 32 queries and one answers them. All queries are asked before
-the clock starts. The script prints a table per database and asserts nothing.
+lease, so a cycle is one call. In batches, one call leases 32 queries and one answers them. In batches of answers, all
+queries are leased before the clock starts, so a cycle is one answer. All queries are asked before the clock starts. The
+script prints a table per database and asserts nothing.
 """
 
 import argparse
@@ -18,7 +19,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -33,7 +34,7 @@ from waypost_server.users import service as users
 ANNOTATORS = (1, 8, 32)
 BATCH = 100  # queries asked at a time
 BACKLOG = 3_000  # open queries at the start
-MODES = ("lease + answer", "chained", "batches")
+MODES = ("lease + answer", "chained", "batches", "batches of answers")
 TOGETHER = 32  # queries of a batch of answers
 VOCABULARY = {"domain": "bench", "subgoals": ["here"], "actions": ["up", "down"], "renderer": "none"}
 ANSWER = {"kind": "inspect_lo", "verdict": "pass"}
@@ -105,12 +106,20 @@ class Annotator:
         self._run = run
         self.seconds: list[float] = []  # of each cycle
         self.answered: list[int] = []  # the queries
+        self._held: list[dict[str, Any]] = []  # what was leased before the clock started
+
+    def hold(self, count: int) -> None:
+        """Lease queries before the clock starts."""
+        while len(self._held) < count and (more := self._lease_batch()):
+            self._held += more
 
     def work(self, mode: str, until: float) -> None:
         """Work in one of `MODES`."""
-        with self._client:
+        with closing(self._client):
             if mode == "batches":
                 self._in_batches(until)
+            elif mode == "batches of answers":
+                self._answer_held(until)
             else:
                 self._one_by_one(until, chained=mode == "chained")
 
@@ -133,17 +142,27 @@ class Annotator:
             held = receipt["next"]
 
     def _in_batches(self, until: float) -> None:
-        wanted = {"run": self._run, "count": TOGETHER}
         while time.perf_counter() < until:
             start = time.perf_counter()
-            held = self._client.post("/assignments/batch", json=wanted).json()["assignments"]
+            held = self._lease_batch()
             if not held:
                 return
-            answers = [{"assignment": one["id"], "token": one["token"], "answer": ANSWER} for one in held]
-            results = self._client.post("/assignments/answers", json={"answers": answers}).json()["results"]
-            each = (time.perf_counter() - start) / len(held)
-            self.seconds += [each] * len(held)
-            self.answered += [result["receipt"]["query"] for result in results]
+            self._answer_batch(held, start)
+
+    def _answer_held(self, until: float) -> None:
+        for first in range(0, len(self._held), TOGETHER):
+            if time.perf_counter() < until:
+                self._answer_batch(self._held[first : first + TOGETHER], time.perf_counter())
+
+    def _lease_batch(self) -> list[dict[str, Any]]:
+        reply = self._client.post("/assignments/batch", json={"run": self._run, "count": TOGETHER})
+        return list(reply.raise_for_status().json()["assignments"])
+
+    def _answer_batch(self, held: list[dict[str, Any]], start: float) -> None:
+        answers = [{"assignment": one["id"], "token": one["token"], "answer": ANSWER} for one in held]
+        results = self._client.post("/assignments/answers", json={"answers": answers}).json()["results"]
+        self.seconds += [(time.perf_counter() - start) / len(held)] * len(held)
+        self.answered += [result["receipt"]["query"] for result in results]
 
 
 def cpu_seconds(pid: int) -> float:
@@ -157,6 +176,9 @@ def row(name: str, database: str, n: int, seconds: float, mode: str, backlog: in
     with serving(database) as (url, pid, learner, headers):
         run = ask_all(url, learner, backlog)
         annotators = [Annotator(url, headers[k], run) for k in range(n)]
+        if mode == "batches of answers":
+            for one in annotators:
+                one.hold(backlog // n)
         before, start = cpu_seconds(pid), time.perf_counter()
         with ThreadPoolExecutor(n) as pool:
             list(pool.map(lambda one: one.work(mode, start + seconds), annotators))

@@ -106,9 +106,8 @@ def answer(tx: Tx, post: Post, wanted: LeaseRequest | None) -> Outcome:
     """
     case = _open(tx, post)
     _check_key(tx, post, case)
-    earlier = ANSWER_OF.first(tx.conn, {"assignment": post.assignment})
-    if earlier is not None:
-        return _repeat(tx, case, earlier, wanted)
+    if case.assignment.has_answer:
+        return _repeat(tx, case, ANSWER_OF.one(tx.conn, {"assignment": post.assignment}), wanted)
     names = checks.Names.of(runs.vocabulary_of(case.run.vocabulary))
     checks.check_answer(case.ask, post.answer, names, ["body", "answer"])
     try:

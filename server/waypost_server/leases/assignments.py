@@ -3,13 +3,13 @@
 import secrets
 from dataclasses import dataclass
 
-from sqlalchemy import bindparam, func, select
+from sqlalchemy import bindparam, exists, func, select
 
 from waypost import prices as pricing
 from waypost import wire
 from waypost_server import errors
 from waypost_server.db.prepared import Prepared
-from waypost_server.db.tables import IS_LIVE, assignments, users
+from waypost_server.db.tables import IS_LIVE, answers, assignments, users
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
@@ -29,10 +29,11 @@ class OwnAssignment:
     state: str
     leased_at: float
     expires_at: float
+    has_answer: bool  # also one that came late or was retracted
 
 
 _FIND = Prepared(
-    select(assignments, query_table.c.run_id)
+    select(assignments, query_table.c.run_id, exists().where(answers.c.assignment_id == assignments.c.id).label("has"))
     .join(query_table, query_table.c.id == assignments.c.query_id)
     .where(assignments.c.id == bindparam("assignment"))
 )
@@ -65,7 +66,9 @@ def find(tx: Tx, assignment: int, user: int, token: str) -> OwnAssignment:
         raise errors.NotYours(f"Assignment {assignment} belongs to another annotator.")
     if not secrets.compare_digest(row.token.encode(), token.encode()):
         raise errors.WrongToken(f"This is not the token of assignment {assignment}.")
-    return OwnAssignment(row.id, row.query_id, row.run_id, row.token, row.state, row.leased_at, row.expires_at)
+    return OwnAssignment(
+        row.id, row.query_id, row.run_id, row.token, row.state, row.leased_at, row.expires_at, bool(row.has)
+    )
 
 
 def find_live(tx: Tx, assignment: int, user: int, token: str) -> OwnAssignment:
