@@ -254,6 +254,7 @@ class Learner:
             {key: q.epsilon if stream == streams.TRAIN else 0.0 for key, q in exploring.items()},
             self.levels.q_lo,
             rollouts.repeat_penalty,
+            rollouts.loop_penalty,
             self._place if rollouts.repeat_penalty else unique_place,
             partial(self._lead, rng) if stream == streams.TRAIN else no_lead,
         )

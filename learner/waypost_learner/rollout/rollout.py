@@ -57,6 +57,7 @@ class RolloutSpec:
     h_lo: int | None = None  # the most actions in a segment; the domain's horizon if None
     h_lo_hybrid: int | None = None  # instead of h_lo if a Q-function chooses the actions; h_lo if None
     repeat_penalty: float = 0.0  # subtracted from a subgoal's logit for each earlier choice of it in the same place
+    loop_penalty: float = 0.0  # likewise, where the observation was equal; also of the actions of a flat policy
 
 
 def unique_place(_: Any) -> Hashable:
@@ -80,6 +81,7 @@ class Behavior:
     epsilons: Mapping[PolicyKey, float] = field(default_factory=dict)  # the policies that choose epsilon-greedily
     terminations_given: bool = False  # whether the domain gives terminal(s; g) (Algorithm 3), instead of beta_g
     repeat_penalty: float = 0.0  # subtracted from a subgoal's logit for each earlier choice of it in the same place
+    loop_penalty: float = 0.0  # likewise, where the observation was equal; also of the actions of a flat policy
     place: Callable[[Any], Hashable] = unique_place  # maps a state's JSON view to its place
     lead: Callable[[PolicyKey, State], Lead] = no_lead  # how an attempt at a subgoal begins in a state
 
@@ -93,6 +95,21 @@ class Behavior:
         return int(np.argmax(logits))
 
 
+class Earlier:
+    """The earlier choices of one rollout, by where they were made."""
+
+    def __init__(self) -> None:
+        self._counts: Counter[tuple[Hashable, int]] = Counter()
+
+    def add(self, where: Hashable, choice: int) -> None:
+        """Count a choice."""
+        self._counts[where, choice] += 1
+
+    def choices(self, where: Hashable, n: int) -> NDArray[np.float32]:
+        """Return how often each of n choices was made there, float32[n]."""
+        return np.array([self._counts[where, choice] for choice in range(n)], np.float32)
+
+
 Rollout = Generator[Consult, tuple[NDArray[np.float32], float], Trajectory]
 
 
@@ -104,13 +121,15 @@ def hierarchical_rollout(simulator: Simulator, instance: Any, behavior: Behavior
     """
     sigma: list[Segment] = []
     state = simulator.reset(instance)
-    chosen: Counter[tuple[Hashable, Subgoal]] = Counter()
+    in_place, in_observation = Earlier(), Earlier()
     while not simulator.ended and len(sigma) < behavior.h_hi and not (sigma and _misled(sigma[-1])):
         logits, _ = yield Consult(META, state)
-        place = behavior.place(state.view)
-        repeats = np.array([chosen[place, subgoal] for subgoal in range(len(logits))], np.float32)
-        subgoal = behavior.choose(META, logits - behavior.repeat_penalty * repeats)
-        chosen[place, subgoal] += 1
+        place, observation = behavior.place(state.view), state.observation.tobytes()
+        logits = logits - behavior.repeat_penalty * in_place.choices(place, len(logits))
+        logits = logits - behavior.loop_penalty * in_observation.choices(observation, len(logits))
+        subgoal = behavior.choose(META, logits)
+        in_place.add(place, subgoal)
+        in_observation.add(observation, subgoal)
         segment = yield from execute_subgoal(simulator, state, subgoal, behavior)
         sigma.append(segment)
         state = segment.states[-1]
@@ -167,9 +186,13 @@ def flat_rollout(simulator: Simulator, instance: Any, behavior: Behavior) -> Rol
     Return tau_FULL as one segment without a subgoal.
     """
     states, actions, rewards = [simulator.reset(instance)], list[int](), list[float]()
+    in_observation = Earlier()
     while not simulator.ended:
         logits, _ = yield Consult(FLAT, states[-1])
+        observation = states[-1].observation.tobytes()
+        logits = logits - behavior.loop_penalty * in_observation.choices(observation, len(logits))
         actions.append(behavior.choose(FLAT, logits))
+        in_observation.add(observation, actions[-1])
         states.append(simulator.step(actions[-1]))
         rewards.append(simulator.reward)
     return (Segment(None, tuple(states), tuple(actions), False, tuple(rewards), final=simulator.final),)

@@ -25,6 +25,7 @@ from waypost_learner.rollout.rollout import (
     Rollout,
     SelectionSpec,
     choose,
+    flat_rollout,
     hierarchical_rollout,
     run,
     run_all,
@@ -251,4 +252,28 @@ def test_a_subgoal_that_was_chosen_in_the_same_place_before_is_less_likely(place
     policies |= {pi(g): lambda _: Outputs(np.zeros((1, 2), np.float32), np.ones(1, np.float32)) for g in range(3)}
     behavior = Behavior(GREEDY, np.random.default_rng(0), h_hi=5, h_lo=H_LO, repeat_penalty=0.5, place=place)
     sigma = run(hierarchical_rollout(Simulator(domain), Corridor(11, 0), behavior), policies)
+    assert [segment.subgoal for segment in sigma] == chosen
+
+
+@pytest.mark.parametrize(("penalty", "cells"), [(0.0, [6, 5, 6, 5, 6, 5, 6]), (0.5, [6, 5, 6, 7, 6, 5, 4])])
+def test_a_choice_that_led_back_to_an_equal_observation_is_less_likely(penalty: float, cells: list[int]) -> None:
+    def back_and_forth(observations: np.ndarray) -> Outputs:
+        goes_east = observations.argmax() < 6  # the first part of an observation is the agent's cell
+        return Outputs(np.array([[0, 0.2] if goes_east else [0.2, 0]], np.float32), np.zeros(1, np.float32))
+
+    behavior = Behavior(GREEDY, np.random.default_rng(0), h_hi=5, h_lo=H_LO, loop_penalty=penalty)
+    (segment,) = run(flat_rollout(Simulator(CorridorDomain()), Corridor(6, 0), behavior), {FLAT: back_and_forth})
+    assert [state.view for state in segment.states[:7]] == cells
+
+
+@pytest.mark.parametrize(("penalty", "chosen"), [(0.0, [WEST] * 5), (0.5, [WEST, EAST, WEST, TARGET, EAST])])
+def test_a_subgoal_that_led_back_to_an_equal_observation_is_less_likely(penalty: float, chosen: list[int]) -> None:
+    logits = np.array([[1.0, 0.8, 0.6]], np.float32)  # west, east, target
+    policies: Any = {META: lambda _: Outputs(logits, np.zeros(1, np.float32))}
+    steps = {WEST: [1.0, 0.0], EAST: [0.0, 1.0], TARGET: [0.0, 1.0]}  # west at the wall leads nowhere
+    policies |= {
+        pi(g): lambda _, g=g: Outputs(np.array([steps[g]], np.float32), np.ones(1, np.float32)) for g in range(3)
+    }
+    behavior = Behavior(GREEDY, np.random.default_rng(0), h_hi=5, h_lo=H_LO, loop_penalty=penalty)
+    sigma = run(hierarchical_rollout(Simulator(CorridorDomain()), Corridor(0, 11), behavior), policies)
     assert [segment.subgoal for segment in sigma] == chosen
