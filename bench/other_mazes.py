@@ -1,8 +1,8 @@
 """Measures the success of a run's policy on other kinds of mazes: `python bench/other_mazes.py RUN --store FILE`.
 
 The script uses the unseen mazes of both sets, and 300 mazes of each other kind, which it draws with the given seed.
-With `--values fields.far=96`, a policy of the preset `general` spreads its fields that far. The script prints a table
-and asserts nothing.
+With `--values "fields.far=96 loop_penalty=1"`, a policy of the preset `general` spreads its fields that far, and leaves
+loops. The script prints a table and asserts nothing.
 """
 
 import argparse
@@ -74,6 +74,7 @@ def main() -> None:
     parser.add_argument("--checkpoints", type=Path, help="the folder of checkpoints; default: beside the store")
     parser.add_argument("--values", help="values that replace the run's own, as for `waypost evaluate`")
     parser.add_argument("--seed", type=int, default=0, help="the seed of the other kinds of mazes")
+    parser.add_argument("--only", nargs="+", help="the kinds to measure, as the table names them; all by default")
     parser.add_argument("--threads", type=int, help="CPU threads; one per core by default")
     parser.add_argument("--save", type=Path, help="a folder to write the sets to, as .npz")
     arguments = parser.parse_args()
@@ -96,9 +97,13 @@ def main() -> None:
         if arguments.save is not None:
             arguments.save.mkdir(parents=True, exist_ok=True)
             save_mazes(arguments.save / f"{name.replace(', ', '-').replace(' ', '-')}.npz", sets[name])
+    unknown = set(arguments.only or ()) - sets.keys()
+    if unknown:
+        parser.error(f"there are no {', '.join(unknown)}; there are {', '.join(sets)}")
     print("| mazes | shortest path in steps, median (maximum) | success |")
     print("|---|---|---|")
-    for name, mazes in sets.items():
+    for name in arguments.only or sets:
+        mazes = sets[name]
         lengths = [int(distances_from(maze.lava, maze.goal)[maze.start]) for maze in mazes]
         found = evaluate(learner, mazes, len(mazes))
         print(f"| {name} | {np.median(lengths):.0f} ({max(lengths)}) | {found.success_rate:.1%} |", flush=True)
