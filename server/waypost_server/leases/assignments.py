@@ -33,7 +33,8 @@ class OwnAssignment:
 
 
 _FIND = Prepared(
-    select(assignments, query_table.c.run_id, exists().where(answers.c.assignment_id == assignments.c.id).label("has"))
+    select(assignments, query_table.c.run_id)
+    .add_columns(exists().where(answers.c.assignment_id == assignments.c.id).label("has_answer"))
     .join(query_table, query_table.c.id == assignments.c.query_id)
     .where(assignments.c.id == bindparam("assignment"))
 )
@@ -67,7 +68,7 @@ def find(tx: Tx, assignment: int, user: int, token: str) -> OwnAssignment:
     if not secrets.compare_digest(row.token.encode(), token.encode()):
         raise errors.WrongToken(f"This is not the token of assignment {assignment}.")
     return OwnAssignment(
-        row.id, row.query_id, row.run_id, row.token, row.state, row.leased_at, row.expires_at, bool(row.has)
+        row.id, row.query_id, row.run_id, row.token, row.state, row.leased_at, row.expires_at, row.has_answer
     )
 
 
