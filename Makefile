@@ -39,14 +39,16 @@ serve: $(VENV)/.base $(if $(filter yes,$(shell scripts/page-is-current)),,web/di
 
 web: web/dist/index.html
 
-# Many tests wait for a browser or for another process, so there are four workers also where there are two cores.
+# Many tests wait for a browser or for another process, so there are four workers also where there are two cores. They
+# use all cores already, so each computes with one thread.
 # pytest runs last, so that its summary is the end of the output. It runs without --dist loadscope, which would run only
 # one of several tests with the same name; the tests that are generated from the API's description have the same name.
 test: $(VENV)/.dev web/node_modules/.stamp
 	@$(MAKE) --no-print-directory -j 2 --output-sync=target lint-python lint-web docs test-web web/dist/index.html
 	@SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/postgresql
 	@chromium="$$(SYSTEM_PACKAGES="$(SYSTEM_PACKAGES)" scripts/chromium)" && \
-	  export WAYPOST_CHROMIUM="$$chromium" OMP_NUM_THREADS=1 && exec $(PYTHON) -m pytest -n $(WORKERS) --dist worksteal $(PYTEST_ARGS)
+	  export WAYPOST_CHROMIUM="$$chromium" OMP_NUM_THREADS=1 && \
+	  exec $(PYTHON) -m pytest -n $(WORKERS) --dist worksteal $(PYTEST_ARGS)
 
 test-web: web/node_modules/.stamp
 	@cd web && ../$(WITH_NODE) npm test --silent

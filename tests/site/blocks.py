@@ -32,13 +32,6 @@ _SAVED = re.compile(r"saved as `([^`]+)`")
 _BESIDE = "<!-- tested beside a server with a query -->"
 
 
-def _little(networks: tuple[str, ...]) -> str:
-    return " ".join(f"train_{network}.{rows}=64" for network in networks for rows in ("least", "most", "idle"))
-
-
-_LITTLE, _LITTLE_GENERAL = _little(("hi", "lo")), _little(("shared",))
-
-
 @dataclass(frozen=True)
 class Block:
     """A code block, with the comments before it."""
@@ -97,7 +90,8 @@ def shortened(text: str) -> str:
             line = re.sub(r"--episodes \d+", "", line)
             values = re.search(r'--values "([^"]*)"', line)
             line = line.replace(values[0], "") if values else line
-            little = _LITTLE_GENERAL if "--preset general" in line else _LITTLE
+            networks = ("shared",) if "--preset general" in line else ("hi", "lo")
+            little = " ".join(f"train_{one}.{rows}=64" for one in networks for rows in ("least", "most", "idle"))
             short = f'--episodes 2 --threads 1 --values "{values[1] if values else ""} {little}"'
             line = re.sub(r"(waypost train [\w-]+)", rf"\1 {short}", line)
         lines.append(line)

@@ -96,18 +96,20 @@ class Behavior:
 
 
 class Earlier:
-    """The earlier choices of one rollout, by where they were made."""
+    """The earlier choices of one rollout, by where they were made. Each makes the same choice less likely there."""
 
-    def __init__(self) -> None:
+    def __init__(self, penalty: float) -> None:
+        self._penalty = penalty
         self._counts: Counter[tuple[Hashable, int]] = Counter()
 
     def add(self, where: Hashable, choice: int) -> None:
         """Count a choice."""
         self._counts[where, choice] += 1
 
-    def choices(self, where: Hashable, n: int) -> NDArray[np.float32]:
-        """Return how often each of n choices was made there, float32[n]."""
-        return np.array([self._counts[where, choice] for choice in range(n)], np.float32)
+    def lowered(self, where: Hashable, logits: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Return the logits float32[n], each less the penalty of its choice."""
+        counts = np.array([self._counts[where, choice] for choice in range(len(logits))], np.float32)
+        return logits - self._penalty * counts
 
 
 Rollout = Generator[Consult, tuple[NDArray[np.float32], float], Trajectory]
@@ -121,13 +123,11 @@ def hierarchical_rollout(simulator: Simulator, instance: Any, behavior: Behavior
     """
     sigma: list[Segment] = []
     state = simulator.reset(instance)
-    in_place, in_observation = Earlier(), Earlier()
+    in_place, in_observation = Earlier(behavior.repeat_penalty), Earlier(behavior.loop_penalty)
     while not simulator.ended and len(sigma) < behavior.h_hi and not (sigma and _misled(sigma[-1])):
         logits, _ = yield Consult(META, state)
         place, observation = behavior.place(state.view), state.observation.tobytes()
-        logits = logits - behavior.repeat_penalty * in_place.choices(place, len(logits))
-        logits = logits - behavior.loop_penalty * in_observation.choices(observation, len(logits))
-        subgoal = behavior.choose(META, logits)
+        subgoal = behavior.choose(META, in_observation.lowered(observation, in_place.lowered(place, logits)))
         in_place.add(place, subgoal)
         in_observation.add(observation, subgoal)
         segment = yield from execute_subgoal(simulator, state, subgoal, behavior)
@@ -186,12 +186,11 @@ def flat_rollout(simulator: Simulator, instance: Any, behavior: Behavior) -> Rol
     Return tau_FULL as one segment without a subgoal.
     """
     states, actions, rewards = [simulator.reset(instance)], list[int](), list[float]()
-    in_observation = Earlier()
+    in_observation = Earlier(behavior.loop_penalty)
     while not simulator.ended:
         logits, _ = yield Consult(FLAT, states[-1])
         observation = states[-1].observation.tobytes()
-        logits = logits - behavior.loop_penalty * in_observation.choices(observation, len(logits))
-        actions.append(behavior.choose(FLAT, logits))
+        actions.append(behavior.choose(FLAT, in_observation.lowered(observation, logits)))
         in_observation.add(observation, actions[-1])
         states.append(simulator.step(actions[-1]))
         rewards.append(simulator.reward)

@@ -20,7 +20,6 @@ _SWITCHES = frozenset(
         "h_hi_tests",
         "h_lo",
         "h_lo_hybrid",
-        "loop_penalty",
         "planning",
         "relabeling",
         "repeat_penalty",
@@ -70,10 +69,6 @@ def _reasons(config: TrainConfig, algorithm: Algorithm, learner: Learner) -> dic
         "repeat_penalty": (
             not levels.flat and isinstance(domain, Placed),
             f"{name} has no subgoals, or the domain {domain.name!r} declares no places",
-        ),
-        "loop_penalty": (
-            not (levels.flat and levels.reinforced),
-            f"{name} has neither subgoals nor a flat policy that imitates",
         ),
         "choosing": (levels.imitating, f"{name} chooses epsilon-greedily (dqn.epsilon)"),
         "choosing.termination_threshold": (not levels.flat and not levels.q_lo, f"{name} has no beta_g"),
