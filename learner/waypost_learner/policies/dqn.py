@@ -53,7 +53,7 @@ class DqnSpec:
     margin: float = 0.0  # by which a demonstrated choice should exceed the others; 0 ignores who chose
     exploration: ExplorationSpec = field(default_factory=ExplorationSpec)  # of subgoals
     symmetries: bool = True  # whether each transition is also learned in every symmetry of the domain
-    bf16: bool = True  # mixed precision where the device supports bf16
+    bf16: bool = True  # mixed precision where bf16 is faster on the device
 
     @property
     def returns(self) -> Returns:

@@ -34,7 +34,7 @@ class TrainSpec:
     weight_decay: float = 0.0
     averaging: float | None = None  # decay of the moving average of the weights, which then acts; no average if None
     every_episode: bool = False  # whether to train after each episode, even if it added no rows
-    bf16: bool = True  # mixed precision where the device supports bf16
+    bf16: bool = True  # mixed precision where bf16 is faster on the device
 
     def __post_init__(self) -> None:
         """Refuse numbers out of their range.

@@ -11,6 +11,7 @@ from tests.learner.kit import TINY, TINY_TRAIN, random_labels, segment
 from waypost_learner.algorithms.learner import Learner
 from waypost_learner.domains.corridor import CorridorDomain
 from waypost_learner.domains.maze.domain import MazeDomain
+from waypost_learner.policies import device
 from waypost_learner.policies.datasets import UNLABELED, Dataset, Row
 from waypost_learner.policies.imitation import Policy, TrainSpec
 from waypost_learner.policies.labels import Labels, LoLabels
@@ -178,6 +179,23 @@ def test_training_in_bf16_where_the_processor_has_it_keeps_the_weights_in_32_bit
     trained.train(filled)
     assert {weight.dtype for weight in weights(trained)} == {torch.float32}
     assert all(torch.isfinite(weight).all() for weight in weights(trained))
+
+
+@pytest.mark.parametrize(
+    ("capabilities", "pays"),
+    [
+        ({"amx_bf16": True, "avx512_bf16": True, "cpu_name": "Intel Xeon"}, True),
+        ({"amx_bf16": False, "avx512_bf16": True, "cpu_name": "Intel Xeon"}, False),
+        ({"amx_bf16": False, "avx512_bf16": True, "cpu_name": "AMD EPYC 9R14"}, True),
+        ({"amx_bf16": False, "avx512_bf16": False, "cpu_name": "Intel Xeon"}, False),
+    ],
+)
+def test_training_uses_bf16_only_on_processors_that_it_makes_faster(
+    monkeypatch: pytest.MonkeyPatch, capabilities: dict[str, object], pays: bool
+) -> None:
+    monkeypatch.setattr(device, "DEVICE", torch.device("cpu"))
+    monkeypatch.setattr(torch.cpu, "get_capabilities", lambda: {"architecture": "x86_64", **capabilities})
+    assert device.has_bf16() is pays
 
 
 def test_a_network_can_read_bytes_instead_of_fractions() -> None:
