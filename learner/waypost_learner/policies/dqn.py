@@ -18,7 +18,8 @@ from torch.nn import functional
 from waypost.trajectory import Observation
 from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision
 from waypost_learner.policies.exploration import ExplorationSpec
-from waypost_learner.policies.networks import NetworkSpec, PlanningSpec, build_network
+from waypost_learner.policies.networks import NetworkSpec, build_network
+from waypost_learner.policies.planning import PlanningSpec
 from waypost_learner.policies.replay import Replay
 from waypost_learner.rollout.experience import Experience, PseudoReward, Returns
 from waypost_learner.rollout.rollout import Outputs

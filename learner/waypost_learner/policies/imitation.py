@@ -16,7 +16,8 @@ from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 from waypost.trajectory import Observation
 from waypost_learner.policies.datasets import UNLABELED, Dataset
 from waypost_learner.policies.device import DEVICE, as_input, has_bf16, mixed_precision, to_device
-from waypost_learner.policies.networks import NetworkSpec, PlanningSpec, build_network
+from waypost_learner.policies.networks import NetworkSpec, build_network
+from waypost_learner.policies.planning import PlanningSpec
 from waypost_learner.rollout.rollout import Outputs
 
 

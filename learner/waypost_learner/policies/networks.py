@@ -1,14 +1,13 @@
-"""Networks: convolutional ones for pictures, one that plans over the places of a view, and one for vectors."""
+"""Networks: convolutional ones for pictures, and one for vectors. `planning.py` has the one that plans."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 import torch
 from torch import nn
-from torch.nn import functional
 
-from waypost.domains import Grid
 from waypost_learner.policies.device import draw_weights
+from waypost_learner.policies.planning import PlanningNet, PlanningSpec
 
 
 @dataclass(frozen=True)
@@ -41,15 +40,6 @@ class NetworkSpec:
     hidden_std: float | None = None
     # Multiplies pictures, which are fractions of 255. With 255, a network reads bytes, as in the authors' code.
     scale: float = 1.0
-
-
-@dataclass(frozen=True)
-class PlanningSpec:
-    """Sizes of a network that plans over the places of a view."""
-
-    grid: Grid
-    horizon: int  # how many choices ahead it plans
-    features: int  # of each place
 
 
 class Dropout(nn.Module):
@@ -155,59 +145,6 @@ class DenseNet(nn.Sequential):
         ]
         super().__init__(*layers)
         _initialize(layers, rng)
-
-
-class PlanningNet(nn.Module):
-    """Maps views float32[B, C, rows, columns] to values float32[B, outputs] of the choices at the agent's place.
-
-    A value iteration network (Tamar et al. 2016): the domain gives the moves, and a convolution over each place's patch
-    gives the cost of each move and of ending there. Soft value iteration turns the costs into values. The agent's place
-    is in the middle of the picture.
-
-    Ending has a cost at every place, even if the grid has no move for it. If `outputs` is one more than the number of
-    the grid's moves, the last output is the logit of beta_g: of ending instead of continuing.
-    """
-
-    def __init__(self, channels: int, outputs: int, spec: PlanningSpec, rng: torch.Generator) -> None:
-        super().__init__()
-        self.moves = [move for move in spec.grid.moves if move is not None]  # None, for ending, is the last
-        self.outputs, self.terminates, self.horizon = outputs, outputs > len(spec.grid.moves), spec.horizon
-        self.places = nn.Conv2d(channels, spec.features, spec.grid.patch, spec.grid.stride)
-        self.costs = nn.Conv2d(spec.features, len(self.moves) + 1, 1)
-        _initialize([self.places, self.costs], rng)
-
-    def forward(self, x: torch.Tensor) -> torch.Tensor:
-        """Run soft value iteration and return the values at the agent's place.
-
-        The iterated quantity is exp(V): exp(V) <- sum over choices of exp(-cost) * exp(V) of the next place.
-        """
-        costs = self.costs(functional.relu(self.places(x)))
-        passable = torch.sigmoid(-(costs.double() if self.horizon > _FLOAT32_STEPS else costs))  # exp(-softplus(cost))
-        moving, ending = passable[:, :-1], passable[:, -1]
-        reached = ending
-        for _ in range(self.horizon - 1):
-            reached = (moving * self._ahead(reached)).sum(1) + ending
-        row, column = (size // 2 for size in ending.shape[1:])
-        here = torch.cat([(moving * self._ahead(reached))[:, :, row, column], ending[:, None, row, column]], 1)
-        if self.terminates:
-            continuing = here[:, :-1].sum(1, keepdim=True)
-            return torch.cat([_log(here[:, :-1]), _log(here[:, -1:]) - _log(continuing)], 1).float()
-        return _log(here)[:, : self.outputs].float()
-
-    def _ahead(self, reached: torch.Tensor) -> torch.Tensor:
-        """Return exp(V) of the place each move leads to, float32[B, moves, rows, columns]; 0 outside the picture."""
-        rows, columns = reached.shape[1:]
-        padded = functional.pad(reached, (1, 1, 1, 1))
-        return torch.stack([padded[:, 1 + r : 1 + r + rows, 1 + c : 1 + c + columns] for r, c in self.moves], 1)
-
-
-_FLOAT32_STEPS = 32
-"""The longest horizon that float32 is precise enough for: exp(V) is between about exp(-2.5) and 4 per step."""
-
-
-def _log(x: torch.Tensor) -> torch.Tensor:
-    """Return the logarithm, but at least that of the smallest number that the type represents well."""
-    return torch.log(x.clamp(min=1e-35 if x.dtype == torch.float32 else 1e-300))
 
 
 def _initialize(layers: list[nn.Module], rng: torch.Generator) -> None:

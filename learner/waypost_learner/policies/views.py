@@ -9,10 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from waypost.domains import Centered, Cropped, Domain, Symmetry, View, Viewed, symmetries_of
+from waypost.domains import Centered, Cropped, Domain, Gridded, Symmetry, View, Viewed, symmetries_of
 from waypost.trajectory import Observation
 from waypost_learner.policies.domain_use import DomainUse
-from waypost_learner.policies.networks import NetworkSpec, PlanningSpec
+from waypost_learner.policies.networks import NetworkSpec
+from waypost_learner.policies.planning import PlanningSpec
 from waypost_learner.rollout.policy_keys import PolicyKey, pi
 from waypost_learner.rollout.rollout import Outputs
 
@@ -79,6 +80,8 @@ def policy_view(domain: Domain, use: DomainUse, network: NetworkSpec, key: Polic
         key: the policy.
     """
     view = _view(domain, use, key)
+    if use.planning is not None and use.views and key.level == "flat" and isinstance(domain, Gridded):
+        view = View(domain.observation_shape, _unchanged, domain.flat_grid)
     symmetry = _tie(domain, key.subgoal) if use.tied and key.subgoal is not None else None
     owner = key if symmetry is None or key.subgoal is None else pi(symmetry.subgoals[key.subgoal])
     if view.grid is None or use.planning is None:

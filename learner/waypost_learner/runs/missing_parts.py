@@ -12,7 +12,7 @@ from waypost.domains import (
     symmetries_of,
 )
 from waypost_learner.algorithms.learner import Learner
-from waypost_learner.policies.networks import PlanningSpec
+from waypost_learner.policies.planning import PlanningSpec
 
 
 def missing_parts(learner: Learner) -> dict[str, str]:

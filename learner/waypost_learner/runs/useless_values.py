@@ -6,7 +6,7 @@ from typing import Any
 from waypost.domains import Centered, Cropped, FlatRelabeling, Placed, Relabeling, Retracing, Viewed, symmetries_of
 from waypost_learner.algorithms import ALGORITHMS, Algorithm
 from waypost_learner.algorithms.learner import Learner
-from waypost_learner.policies.networks import PlanningSpec
+from waypost_learner.policies.planning import PlanningSpec
 from waypost_learner.presets import Changes, parse_values
 from waypost_learner.presets.base import value_of
 from waypost_learner.runs.config import TrainConfig

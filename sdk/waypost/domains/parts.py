@@ -191,6 +191,8 @@ class Grid:
     stride: int  # distance from one place to the next, in pixels
     # For each choice, the move (down, right) in places. None, only for the last choice, means that it ends the path.
     moves: tuple[tuple[int, int] | None, ...]
+    # The channel whose highest value is where the agent is; None: the agent's place is in the middle of the view.
+    agent: int | None = None
 
 
 @dataclass(frozen=True)
@@ -199,7 +201,7 @@ class View:
 
     shape: tuple[int, ...]  # of the view, such as (channels, rows, columns)
     observe: Callable[[Any], Any]  # returns the view of an observation
-    grid: Grid | None = None  # the places in the view; the agent's place is in the middle
+    grid: Grid | None = None  # the places in the view
 
 
 @runtime_checkable
@@ -216,6 +218,13 @@ class Viewed(Protocol):
     hi_view: View  # for choosing subgoals
     lo_view: View  # for choosing actions and terminations toward a subgoal
     flat_view: View  # for choosing actions without subgoals
+
+
+@runtime_checkable
+class Gridded(Protocol):
+    """A domain whose whole observations show places, over which a flat policy plans instead of those of its view."""
+
+    flat_grid: Grid  # with the agent's channel
 
 
 @runtime_checkable

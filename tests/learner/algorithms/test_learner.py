@@ -22,7 +22,8 @@ from waypost_learner.policies.exploration import ExplorationSpec
 from waypost_learner.policies.imitation import Policy, TrainSpec
 from waypost_learner.policies.labels import Labels, LoLabels
 from waypost_learner.policies.levels import Levels
-from waypost_learner.policies.networks import ConvNet, DenseNet, PlanningNet
+from waypost_learner.policies.networks import ConvNet, DenseNet
+from waypost_learner.policies.planning import PlanningNet
 from waypost_learner.presets import find_preset
 from waypost_learner.rollout.policy_keys import META, pi
 from waypost_learner.rollout.rollout import Outputs, run

@@ -119,7 +119,7 @@ class Secret:
         return True
 
 
-PLACES = ("place", "relabeled", "relabeled_actions", "retraced", "hi_view", "lo_view", "flat_view")
+PLACES = ("place", "relabeled", "relabeled_actions", "retraced", "hi_view", "lo_view", "flat_view", "flat_grid")
 
 
 def reticent(*parts: str) -> type[MazeDomain]:

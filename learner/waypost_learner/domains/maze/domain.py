@@ -22,7 +22,7 @@ from waypost_learner.domains.maze.maze import (
 from waypost_learner.domains.maze.oracle import MazeOracle
 from waypost_learner.domains.maze.relabeling import relabeled, relabeled_actions, retraced
 from waypost_learner.domains.maze.symmetries import symmetries
-from waypost_learner.domains.maze.views import CENTERED_VIEW, CROP_VIEW, FLAT_VIEW, HI_VIEW, LO_VIEW
+from waypost_learner.domains.maze.views import CENTERED_VIEW, CROP_VIEW, FLAT_GRID, FLAT_VIEW, HI_VIEW, LO_VIEW
 
 
 class MazeDomain:
@@ -39,7 +39,7 @@ class MazeDomain:
     observation_shape = (3, SIZE, SIZE)
     symmetries = symmetries()
     hi_view, lo_view, flat_view = HI_VIEW, LO_VIEW, FLAT_VIEW
-    centered_view, crop_view = CENTERED_VIEW, CROP_VIEW
+    centered_view, crop_view, flat_grid = CENTERED_VIEW, CROP_VIEW, FLAT_GRID
     relabeled = staticmethod(relabeled)
     relabeled_actions = staticmethod(relabeled_actions)
     retraced = staticmethod(retraced)

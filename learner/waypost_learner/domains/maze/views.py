@@ -3,6 +3,8 @@
 Views are not part of the paper, and the `paper` preset does not use them.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -91,8 +93,9 @@ def _visible_span(place: int) -> tuple[int, int]:
 
 HI_VIEW = View((3, _HI_SIDE, _HI_SIDE), _maze_around_room, _ROOM_GRID)
 LO_VIEW = View((3, 2 * _REACH + 1, 2 * _REACH + 1), _room_around_agent, _CELL_GRID)
-FLAT_VIEW = View((3, 2 * SIZE - 1, 2 * SIZE - 1), _maze_around_agent, _CELL_GRID)
-CENTERED_VIEW = View(FLAT_VIEW.shape, _maze_around_agent)
+FLAT_VIEW = View((3, 2 * SIZE - 1, 2 * SIZE - 1), _maze_around_agent)
+CENTERED_VIEW = FLAT_VIEW
+FLAT_GRID = replace(_CELL_GRID, agent=0)
 CROP_VIEW = View(LO_VIEW.shape, _cells_around_agent)
 
 

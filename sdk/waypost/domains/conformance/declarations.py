@@ -14,6 +14,7 @@ from waypost.domains.parts import (
     Centered,
     Cropped,
     Ending,
+    Gridded,
     Landmarked,
     Pictured,
     Placed,
@@ -107,6 +108,8 @@ def parts_fit(domain: Domain) -> Iterator[str]:
     if isinstance(domain, Viewed):
         for name in ("hi_view", "lo_view", "flat_view"):
             yield from _view(name, getattr(domain, name), observation)
+    if isinstance(domain, Gridded) and domain.flat_grid.agent is None:
+        yield "flat_grid does not say which channel shows the agent; give it agent=CHANNEL."
     if isinstance(domain, Centered):
         yield from _view("centered_view", domain.centered_view, observation)
     if isinstance(domain, Cropped):
