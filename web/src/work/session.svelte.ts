@@ -175,8 +175,10 @@ export class WorkSession {
   /** Take an assignment that has arrived: show it, keep it ahead, or release it. */
   #receive(assignment: Assignment): void {
     if (this.#stopped) void this.#release(proofOf(assignment));
-    else if (this.phase === 'task') this.#keepAhead(assignment);
-    else this.#show(assignment);
+    else if (this.phase === 'task') {
+      this.#keepAhead(assignment);
+      void this.#lookAhead();
+    } else this.#show(assignment);
   }
 
   /** Show the first query that is leased ahead; return whether there is one. */
@@ -226,13 +228,14 @@ export class WorkSession {
     this.#keep([assignment, ...this.#waiting()]);
   }
 
-  /** Lease the next query ahead, unless one is leased already or requested. */
+  /** Lease one query more ahead, unless enough are leased or one is requested. Only the first is worth a wait. */
   async #lookAhead(): Promise<void> {
-    if (this.#ahead.length > 0 || this.#expected > 0 || this.phase !== 'task') return;
+    if (this.#ahead.length >= MOST_AHEAD || this.#expected > 0 || this.phase !== 'task') return;
+    const wait = this.#ahead.length === 0 ? POLL_SECONDS : 0;
     const { signal } = (this.#lookupAhead = new AbortController());
     try {
       const found = await this.#expecting(
-        this.#server.lease(leaseRequest(this.#wanted, this.#tab, POLL_SECONDS, true), signal),
+        this.#server.lease(leaseRequest(this.#wanted, this.#tab, wait, true), signal),
       );
       if (found !== null) this.#receive(found);
     } catch {

@@ -134,14 +134,29 @@ describe('a session', () => {
     expect(shown()).toBe(3);
   });
 
+  it('leases two queries ahead, so that fast answers do not wait for the server', async () => {
+    answer.mockReturnValue(new Promise(() => undefined));
+    await started([assignment(1)], [assignment(2), assignment(3), assignment(4)]);
+    session.submit(PASS);
+    session.submit(PASS);
+    expect([shown(), session.phase]).toEqual([3, 'task']);
+    expect(server.later).toEqual([assignment(4)]);
+  });
+
   it('leases ahead with one request at a time, and again when a receipt brought no query', async () => {
     const lease = vi.spyOn(server, 'lease');
     answer.mockResolvedValue(receipt(null));
     await started([assignment(1)], [assignment(2)]);
+    const waits = (): unknown[] => lease.mock.calls.map(([request]) => [request.wait, request.ahead]);
+    expect(waits()).toEqual([
+      [0, false],
+      [20, true],
+      [0, true], // there is no third query, and one ahead is enough to go on
+    ]);
     session.submit(PASS);
-    expect(lease).toHaveBeenCalledTimes(2); // the first query, and the one ahead: the answer asks for another
+    expect(lease).toHaveBeenCalledTimes(3); // the answer asks for another
     await settled();
-    expect(lease).toHaveBeenCalledTimes(3);
+    expect(waits().slice(3)).toEqual([[20, true]]);
   });
 
   it('keeps at most two queries ahead, and releases the third', async () => {
