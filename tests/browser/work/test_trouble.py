@@ -27,28 +27,29 @@ def wait_until_leased(learner: Learner, *queries: int) -> None:
 def test_an_answer_survives_an_outage(open_page: Open, learner: Learner, complaints: Complaints) -> None:
     complaints.expect("net::ERR_")
     run = learner.create_run("outage")
-    questions = (QUESTION, "Leased ahead", "After the outage")
+    questions = (QUESTION, "Leased ahead", "Leased ahead, too", "After the outage")
     asks = [ask("inspect_full", episode, question=one) for episode, one in enumerate(questions)]
-    first, second, third = learner.ask(run, *asks)
+    first, second, third, last = learner.ask(run, *asks)
     page = open_page(f"/work?run={run}", intercepted=True)
     wait_for_heading(page, QUESTION)
-    wait_until_leased(learner, second)
+    wait_until_leased(learner, second, third)
     page.route("**/api/**", lambda route: route.abort())
     page.keyboard.press("f")
     wait_for_heading(page, "Leased ahead")
     expect(page.get_by_text("1 unsaved")).to_be_visible()
     page.keyboard.press("p")
+    wait_for_heading(page, "Leased ahead, too")
+    page.keyboard.press("p")
     wait_for_heading(page, "The server cannot be reached")
-    expect(page.get_by_text("2 answers kept here")).to_be_visible()
+    expect(page.get_by_text("3 answers kept here")).to_be_visible()
     assert learner.query(first)["answer"] is None
     page.unroute("**/api/**")
-    assert learner.answer_of(first) == {"kind": "inspect_full", "verdict": "fail"}
-    assert learner.answer_of(second) == {"kind": "inspect_full", "verdict": "pass"}
+    assert [learner.answer_of(query)["verdict"] for query in (first, second, third)] == ["fail", "pass", "pass"]
     wait_for_heading(page, "After the outage")
     expect(page.get_by_text("unsaved")).to_be_hidden()
     page.keyboard.press("p")
-    learner.answer_of(third)
-    assert learner.call("GET", f"/runs/{run}/costs")["total"] == 3
+    learner.answer_of(last)
+    assert learner.call("GET", f"/runs/{run}/costs")["total"] == 4
 
 
 def test_an_answer_is_sent_from_memory_while_the_storage_is_full(
@@ -325,23 +326,25 @@ def test_a_server_that_restarts_while_one_answers_loses_nothing(
     with serving.background(settings) as served:
         learner = Learner(served)
         run = learner.create_run("restarted")
-        asks = [ask("inspect_full", episode, question=f"Question {episode}") for episode in range(3)]
+        asks = [ask("inspect_full", episode, question=f"Question {episode}") for episode in range(4)]
         queries = learner.ask(run, *asks)
         page = open_page(f"/work?run={run}", at=served)
         wait_for_heading(page, "Question 0")
-        wait_until_leased(learner, *queries[:2])
+        wait_until_leased(learner, *queries[:3])
         learner.close()
     page.keyboard.press("f")
     wait_for_heading(page, "Question 1")
     expect(page.get_by_text("1 unsaved")).to_be_visible()
     page.keyboard.press("p")
+    wait_for_heading(page, "Question 2")
+    page.keyboard.press("p")
     wait_for_heading(page, "The server cannot be reached")
     with serving.background(settings, port=int(served.url.rpartition(":")[2])) as again:
-        wait_for_heading(page, "Question 2")
+        wait_for_heading(page, "Question 3")
         page.keyboard.press("p")
         learner = Learner(again)
-        assert [learner.answer_of(query)["verdict"] for query in queries] == ["fail", "pass", "pass"]
-        assert learner.call("GET", f"/runs/{run}/costs")["total"] == 3
+        assert [learner.answer_of(query)["verdict"] for query in queries] == ["fail", "pass", "pass", "pass"]
+        assert learner.call("GET", f"/runs/{run}/costs")["total"] == 4
         page.goto("/login")
         learner.close()
 

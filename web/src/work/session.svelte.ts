@@ -6,7 +6,8 @@ import { isAborted, Refused, Unreachable, wordsOf } from '../api/client';
 import { delay, pause, visible } from '../api/retry';
 import type { Answer, Assignment, Me, Outlook, Receipt } from '../api/types';
 import type { Notice } from '../task/notice';
-import { beat, NO_HEARTBEAT, type Heartbeat } from './heartbeat';
+import { giveBack, LeasedAhead } from './ahead';
+import { beat, NO_HEARTBEAT } from './heartbeat';
 import { leaseRequest, proofOf, type LeaseProof, type Wanted, type WorkServer } from './server';
 
 export type Phase = 'loading' | 'waiting' | 'task' | 'sending' | 'offline' | 'signed-out' | 'refused';
@@ -15,16 +16,8 @@ const POLL_SECONDS = 20;
 /** How long the server may delay a receipt, to send the learner's next query with it. */
 const NEXT_SECONDS = 0.25;
 const UNDO_DEPTH = 10;
-/** How many queries are leased besides the one on the screen, so that the next one appears at once. */
-const MOST_AHEAD = 2;
 const ME_EVERY_MS = 5_000;
 const OUTLOOK_EVERY_MS = 15_000;
-
-/** A query that was leased ahead and is not on the screen yet. */
-interface LeasedAhead {
-  readonly assignment: Assignment;
-  readonly heartbeat: Heartbeat;
-}
 
 /**
  * The session of one work view: leases a query, renews the lease, sends the answer, shows the next query. The next
@@ -43,13 +36,12 @@ export class WorkSession {
   readonly #sender: AnswerSender;
   readonly #wanted: Wanted;
   readonly #active: () => boolean; // has the annotator done anything since the last call?
-  readonly #prepare: (assignment: Assignment) => void; // load the pictures of a query
   readonly #stopListening: () => void;
   #lookup = new AbortController();
   #lookupAhead = new AbortController();
   #heartbeat = NO_HEARTBEAT;
   #tab = newName('tab');
-  #ahead: readonly LeasedAhead[] = [];
+  readonly #ahead: LeasedAhead;
   #expected = 0; // the number of requests in progress that may bring a query to lease ahead
   #sending: Promise<unknown> = Promise.resolve();
   #sent: readonly LeaseProof[] = []; // answers, oldest first, also those that the server does not have yet
@@ -69,7 +61,7 @@ export class WorkSession {
     this.#sender = sender;
     this.#wanted = wanted;
     this.#active = active;
-    this.#prepare = prepare;
+    this.#ahead = new LeasedAhead(server, prepare);
     this.#stopListening = sender.listen({
       stored: (receipt) => this.#count(receipt),
       refused: (reason, assignment) => this.#refused(reason, assignment),
@@ -157,7 +149,7 @@ export class WorkSession {
   }
 
   async #send(pending: PendingAnswer): Promise<void> {
-    const isNextThere = this.#ahead.length > 0;
+    const isNextThere = this.#ahead.size > 0;
     const next = leaseRequest(this.#wanted, this.#tab, isNextThere ? 0 : NEXT_SECONDS, isNextThere);
     const receipt = await this.#expecting(this.#sender.send(pending, next));
     if (receipt?.next) this.#receive(receipt.next);
@@ -174,50 +166,18 @@ export class WorkSession {
 
   /** Take an assignment that has arrived: show it, keep it ahead, or release it. */
   #receive(assignment: Assignment): void {
-    if (this.#stopped) void this.#release(proofOf(assignment));
+    if (this.#stopped) void giveBack(this.#server, assignment);
     else if (this.phase === 'task') {
-      this.#keepAhead(assignment);
+      this.#ahead.add(assignment, this.assignment);
       void this.#lookAhead();
     } else this.#show(assignment);
   }
 
   /** Show the first query that is leased ahead; return whether there is one. */
   #showAhead(): boolean {
-    const [first, ...rest] = this.#ahead;
-    if (first === undefined) return false;
-    this.#ahead = rest;
-    first.heartbeat.stop();
-    this.#show(first.assignment);
-    return true;
-  }
-
-  /** Keep an assignment ahead. The episode on the screen comes first; the rest is in the server's order. */
-  #keepAhead(assignment: Assignment): void {
-    this.#prepare(assignment);
-    const isOther = (one: Assignment): number => Number(!followsUp(one, this.assignment));
-    this.#keep(
-      [...this.#waiting(), assignment].toSorted(
-        (a, b) => isOther(a) - isOther(b) || b.query.priority - a.query.priority || a.query.id - b.query.id,
-      ),
-    );
-  }
-
-  #waiting(): Assignment[] {
-    return this.#ahead.map((one) => one.assignment);
-  }
-
-  /** Keep these assignments ahead, in this order, and release those over the limit. */
-  #keep(assignments: readonly Assignment[]): void {
-    for (const one of this.#ahead) one.heartbeat.stop();
-    this.#ahead = assignments.slice(0, MOST_AHEAD).map((assignment) => ({
-      assignment,
-      heartbeat: beat(
-        assignment.lease_seconds,
-        () => this.#server.renew(proofOf(assignment), false),
-        () => (this.#ahead = this.#ahead.filter((one) => one.assignment !== assignment)),
-      ),
-    }));
-    for (const assignment of assignments.slice(MOST_AHEAD)) void this.#release(proofOf(assignment));
+    const first = this.#ahead.take();
+    if (first !== undefined) this.#show(first);
+    return first !== undefined;
   }
 
   /** Keep the query on the screen as the first one ahead, because another query is shown before it. */
@@ -225,13 +185,13 @@ export class WorkSession {
     const { assignment } = this;
     if (assignment === null || this.phase !== 'task') return;
     this.#forget();
-    this.#keep([assignment, ...this.#waiting()]);
+    this.#ahead.putFirst(assignment);
   }
 
   /** Lease one query more ahead, unless enough are leased or one is requested. Only the first is worth a wait. */
   async #lookAhead(): Promise<void> {
-    if (this.#ahead.length >= MOST_AHEAD || this.#expected > 0 || this.phase !== 'task') return;
-    const wait = this.#ahead.length === 0 ? POLL_SECONDS : 0;
+    if (this.#ahead.isFull || this.#expected > 0 || this.phase !== 'task') return;
+    const wait = this.#ahead.size === 0 ? POLL_SECONDS : 0;
     const { signal } = (this.#lookupAhead = new AbortController());
     try {
       const found = await this.#expecting(
@@ -325,17 +285,9 @@ export class WorkSession {
   #releaseAll(): void {
     this.#lookup.abort();
     this.#lookupAhead.abort();
-    this.#keep([]);
+    this.#ahead.stop();
     if (this.phase !== 'sending') this.#forget();
     this.#server.leave(this.#tab, this.#sender.unsent()).catch(() => undefined); // otherwise the leases expire
-  }
-
-  async #release(lease: LeaseProof): Promise<void> {
-    try {
-      await this.#server.release(lease, '', false);
-    } catch {
-      // The lease expires.
-    }
   }
 
   #forget(): void {
@@ -380,11 +332,6 @@ export class WorkSession {
   #warn(text: string, instead?: string): void {
     this.notice = { tone: 'warning', text: instead ?? text };
   }
-}
-
-/** Return whether a query is about the episode on the screen. */
-function followsUp({ query }: Assignment, shown: Assignment | null): boolean {
-  return shown !== null && query.run === shown.query.run && query.ask.episode === shown.query.ask.episode;
 }
 
 /** Return why an answer cannot be taken back, by the name of the refusal. */
