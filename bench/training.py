@@ -2,8 +2,11 @@
 
 Training: the script measures `Policy.train` on maze observations in samples per second, and compares it with three
 others that have the same network, data and batch size. Two are plain torch loops: one with 32-bit floats, and one with
-the same mixed precision and memory layout as `Policy.train`. The third is behavioral cloning of the `imitation`
+the same precision and memory layout as `Policy.train`. The third is behavioral cloning of the `imitation`
 library, with 32-bit floats, in a separate virtual environment. It does more per step (`peers/behavioral_cloning.py`).
+
+Planning: it measures 100 steps of soft value iteration over the places of a maze, with gradients, as a flat policy of
+`lean` trains, and compares them with the same steps written as torch operations that autograd follows.
 
 Acting: the script measures the latency for one state and for a batch.
 
@@ -27,12 +30,14 @@ import torch
 from bench.peers.client import Missing, Peer
 from bench.peers.network import table_1
 from torch import nn
+from torch.nn import functional
 
 from waypost_learner.domains.maze.domain import MazeDomain
 from waypost_learner.domains.maze.generator import maze_set
-from waypost_learner.domains.maze.maze import SUBGOALS
+from waypost_learner.domains.maze.maze import MOVES, SUBGOALS
 from waypost_learner.policies.datasets import Dataset, Row
 from waypost_learner.policies.imitation import Policy
+from waypost_learner.policies.planning import iterate
 from waypost_learner.presets.paper import PAPER
 from waypost_learner.rollout.simulator import Simulator
 
@@ -66,10 +71,10 @@ def plain_network(dropout: float) -> nn.Sequential:
     return nn.Sequential(*table_1((3, 17, 17), CHANNELS, HIDDEN, dropout), nn.Linear(HIDDEN, len(SUBGOALS)))
 
 
-def plain_loop(data: Dataset, rows: int, bf16: bool) -> Callable[[], None]:
+def plain_loop(data: Dataset, rows: int, bf16: bool = False, channels_last: bool = False) -> Callable[[], None]:
     """Return a function that trains a plain torch network."""
     network = plain_network(SPEC.dropout)
-    if bf16:
+    if channels_last:
         network = network.to(memory_format=torch.channels_last)
     optimizer = torch.optim.Adam(network.parameters(), lr=SPEC.learning_rate)
     criterion = nn.CrossEntropyLoss()
@@ -134,8 +139,8 @@ def print_training(policy: Policy, data: Dataset) -> None:
     same = f"plain torch, {'bf16, channels last' if policy.bf16 else 'channels last'}"
     rounds = {
         "Policy.train": timed(lambda: policy.train(data)),
-        same: timed(plain_loop(data, rows, bf16=policy.bf16)),
-        "plain torch": timed(plain_loop(data, rows, bf16=False)),
+        same: timed(plain_loop(data, rows, bf16=policy.bf16, channels_last=True)),
+        "plain torch": timed(plain_loop(data, rows)),
     }
     absent = ""
     with ExitStack() as stack:
@@ -152,6 +157,30 @@ def print_training(policy: Policy, data: Dataset) -> None:
         print(f"| {name} | {rows / min(times):,.0f} | {ratio(taken, name, 'Policy.train'):.2f} |")
     if absent:
         print(absent)
+
+
+def print_planning() -> None:
+    rng, batch, side, steps = torch.Generator().manual_seed(0), 64, 17, 100  # 15 x 15 places and a frame
+    inside = functional.pad(torch.ones(side - 2, side - 2, dtype=torch.float64), (1, 1, 1, 1))
+    moving = 0.2 * torch.rand(batch, len(MOVES), side, side, dtype=torch.float64, generator=rng) * inside
+    moving.requires_grad_()
+    ending = (torch.rand(batch, side, side, dtype=torch.float64, generator=rng) * inside).requires_grad_()
+
+    def ours() -> None:
+        iterate(moving, ending, [down * side + right for down, right in MOVES], steps).sum().backward()
+
+    def plain() -> None:
+        reached = ending
+        for _ in range(steps):
+            padded = functional.pad(reached, (1, 1, 1, 1))
+            ahead = [padded[:, 1 + down : 1 + down + side, 1 + right : 1 + right + side] for down, right in MOVES]
+            reached = (moving * torch.stack(ahead, 1)).sum(1) + ending
+        reached.sum().backward()
+
+    taken = in_turns({"iterate": timed(ours), "plain": timed(plain)})
+    print("\n| planning, 100 steps and their gradients, batch 64 | ms | iterate: times as fast |\n|---|---|---|")
+    print(f"| iterate | {1e3 * min(taken['iterate']):.0f} | 1.00 |")
+    print(f"| torch operations | {1e3 * min(taken['plain']):.0f} | {ratio(taken, 'plain', 'iterate'):.2f} |")
 
 
 def print_latency(policy: Policy, data: Dataset) -> None:
@@ -185,6 +214,7 @@ def main() -> None:
     policy = Policy((3, 17, 17), len(SUBGOALS), False, PAPER.training.network, SPEC, seed=0)
     print(machine(policy))
     print_training(policy, data)
+    print_planning()
     print_latency(policy, data)
 
 
