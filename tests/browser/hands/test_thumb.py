@@ -3,9 +3,11 @@
 import pytest
 from playwright.sync_api import Page, expect
 from tests.browser import test_takeover
-from tests.browser.conftest import Open, Stage
-from tests.browser.hands.pointer import box_of
-from tests.browser.kit import Json, Learner
+from tests.browser.conftest import WIDE, Open, Stage
+from tests.browser.hands.pointer import Finger, Mouse, box_of
+from tests.browser.kit import MOVES as WAYS
+from tests.browser.kit import START, Json, Learner, wait_for_heading
+from tests.browser.kit import ask as question
 from tests.browser.test_play import SEGMENTS, WAY, ask, is_here, send
 
 MOVES = {"u": "up", "d": "down", "l": "left", "r": "right"}
@@ -42,6 +44,47 @@ def test_a_demonstration_is_played_with_a_thumb(open_page: Open, learner: Learne
     assert page.evaluate("scrollY") == 0
     send(page)
     assert learner.answer_of(query)["segments"] == SEGMENTS
+
+
+@pytest.mark.parametrize(("hand", "size"), [(Mouse, WIDE), (Finger, PHONES[0])])
+def test_a_demonstration_is_played_on_the_map(
+    open_page: Open, learner: Learner, stage: Stage, hand: type[Mouse], size: Json
+) -> None:
+    run = learner.create_run("on the map")
+    [query] = learner.ask(run, ask())
+    stage(learner.served, query)
+    page = open_page(f"/work?run={run}", size=size, touch=hand is Finger)
+    is_here(page)
+    on, cell = hand(page), START
+    for number, (segment, (_, steps)) in enumerate(zip(SEGMENTS, WAY, strict=True)):
+        on.press(str(segment["subgoal"]).replace("_", " "))
+        cells = [cell]
+        for step in steps:
+            cells.append((cells[-1][0] + WAYS[MOVES[step]][0], cells[-1][1] + WAYS[MOVES[step]][1]))
+        if number % 2:
+            on.draw(*cells)
+        else:
+            for one in cells[1:]:
+                on.click(one)
+        cell = cells[-1]
+        expect(page.get_by_role("list", name="Segments played").get_by_role("listitem").last).to_contain_text(
+            f"{len(steps)} step"
+        )
+        if number + 1 < len(WAY):
+            on.press("Reached")
+    send(page)
+    assert learner.answer_of(query)["segments"] == SEGMENTS
+
+
+def test_buttons_show_no_keys_where_there_is_no_keyboard(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("no keys")
+    learner.ask(run, question("label_hi"))
+    for touch in (True, False):
+        page = open_page(f"/work?run={run}", size={"width": 768, "height": 1024}, touch=touch)
+        wait_for_heading(page, question("label_hi")["question"])
+        shown = [cap for cap in page.locator(".button kbd").all() if cap.is_visible()]
+        assert bool(shown) is not touch
+        page.goto("/login")  # so that the question is free again
 
 
 @pytest.mark.parametrize("size", PHONES)

@@ -27,7 +27,7 @@ export function stepOf(name: string): Step | null {
 export function legendOf(name: string): string {
   return rendererOf(name) === MazeView
     ? t(
-        'On the map, the ring is the target and the dot is the agent. A number with a letter marks the state where a subgoal was chosen. Segments that the question is not about are faint. A bar with two posts is a door. Click the path to go there; where steps are labeled, this marks the first wrong step. Where subgoals are asked for, click a door or the target to choose one. Where labels are asked for, drag along the right way to label all states or segments on it.',
+        'On the map, the ring is the target and the dot is the agent. A number with a letter marks the state where a subgoal was chosen. Segments that the question is not about are faint. A bar with two posts is a door. Click the path to go there; where steps are labeled, this marks the first wrong step. Where subgoals are asked for, click a door or the target to choose one. Where labels are asked for, drag along the right way to label all states or segments on it. In a demonstration, click beside the agent or drag from it to move it.',
       )
     : t(
         'A box in the picture is the place of a subgoal; the thick one belongs to the segment. Where subgoals are asked for, click a box to choose its subgoal. A dashed box shows where an action leads. Where actions are asked for, click it, or drag along the right way. Under the picture are the states where a subgoal was chosen, and the steps of the current segment. Click one to go there; where steps are labeled, this marks the first wrong step. Segments that the question is not about are dashed.',

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { buildTape } from '../../player/tape';
 import type { Maze } from './geometry';
-import { cellAt, frameAt, placeAt, placesOf, reachOf } from './hit';
+import { cellAt, cellBeside, frameAt, isOn, placeAt, placesOf, reachOf } from './hit';
 
 const maze: Maze = {
   rows: [
@@ -33,6 +33,19 @@ const tapeOf = (...states: number[][]): ReturnType<typeof buildTape> =>
       },
     ],
   );
+
+describe('the cells beside the agent', () => {
+  it('are free, and may be hit a little beside', () => {
+    expect(cellBeside(maze, [7, 1], [6.5, 1.5], 0.5)).toEqual([6, 1]);
+    expect(cellBeside(maze, [7, 1], [6.5, 0.9], 0.8)).toEqual([6, 1]);
+    expect(cellBeside(maze, [7, 1], [8.5, 1.5], 0.5)).toBeNull(); // lava
+    expect(cellBeside(maze, [7, 1], [5.5, 1.5], 0.5)).toBeNull(); // two steps away
+  });
+  it('are not the cell of the agent', () => {
+    expect(isOn([7, 1], [7.2, 1.9], 0.5)).toBe(true);
+    expect(isOn([7, 1], [6.9, 1.5], 0.5)).toBe(false);
+  });
+});
 
 describe('the places of subgoals', () => {
   it('are the doors of the room for its sides, and the target', () => {

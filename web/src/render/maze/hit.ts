@@ -74,6 +74,22 @@ export function frameAt(tape: Tape, at: number, point: Point, reach: number): nu
   return next === -1 ? tape.frames.findIndex(isHere) : next;
 }
 
+/** Return the free cell beside the agent's at a point; null if there is none. */
+export function cellBeside(maze: Maze, [row, column]: Cell, point: Point, reach: number): Cell | null {
+  const around: Cell[] = Object.values(SIDES).map(([down, right]) => [row + down, column + right]);
+  return nearest(
+    around.filter((cell) => !isLava(maze, cell)),
+    (cell) => cell,
+    point,
+    reach,
+  );
+}
+
+/** Return whether a point is on the agent's cell, or within reach of it. */
+export function isOn(cell: Cell, point: Point, reach: number): boolean {
+  return nearest([cell], (one) => one, point, reach) !== null;
+}
+
 /** Return the target in the cell of a point, else the nearest target within reach, else null. */
 function nearest<T>(
   targets: readonly T[],

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { buildTape, type Tape } from '../../player/tape';
 import type { Cell, Maze } from './geometry';
-import { actionsAlong, endOf, extended, subgoalsAlong, type Stroke } from './stroke';
+import { actionsAlong, actionsTo, endOf, extended, subgoalsAlong, type Stroke } from './stroke';
 
 /** Two by two rooms of three by three cells. */
 const maze: Maze = {
@@ -45,6 +45,19 @@ function walked(start: Cell, segments: readonly (readonly [string, string])[], b
   });
   return buildTape(all.slice(0, before), all.slice(before));
 }
+
+describe('the way of an agent that follows the pointer', () => {
+  it('is straight, or around one corner', () => {
+    expect(actionsTo(maze, [7, 1], [5, 1])).toEqual(['up', 'up']);
+    expect(actionsTo(maze, [7, 3], [4, 2])).toEqual(['left', 'up', 'up', 'up']); // first up, it would meet lava
+    expect(actionsTo(maze, [6, 3], [7, 1])).toEqual(['down', 'left', 'left']);
+    expect(actionsTo(maze, [7, 1], [7, 1])).toEqual([]);
+  });
+  it('never leads through lava', () => {
+    expect(actionsTo(maze, [7, 1], [7, 5])).toEqual([]);
+    expect(actionsTo(maze, [7, 1], [8, 1])).toEqual([]);
+  });
+});
 
 describe('a stroke', () => {
   it('passes every cell between two that the pointer was seen on', () => {

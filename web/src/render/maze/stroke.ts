@@ -23,8 +23,18 @@ export type Stroke = readonly Cell[];
 export function extended(maze: Maze, stroke: Stroke, cell: Cell): Stroke {
   const tip = stroke.at(-1);
   if (tip === undefined) return isLava(maze, cell) ? stroke : [cell];
-  const steps = [walk(tip, cell, 0), walk(tip, cell, 1)].find((way) => !way.some((one) => isLava(maze, one)));
-  return (steps ?? []).reduce(grown, stroke);
+  return wayTo(maze, tip, cell).reduce(grown, stroke);
+}
+
+/** Return the actions that lead straight, or around one corner, to a cell; none if lava is in the way. */
+export function actionsTo(maze: Maze, from: Cell, to: Cell): string[] {
+  const cells = [from, ...wayTo(maze, from, to)];
+  return cells.slice(1).flatMap((_, at) => actionOf(wayOn(cells, at)) ?? []);
+}
+
+function wayTo(maze: Maze, from: Cell, to: Cell): Cell[] {
+  const ways = [walk(from, to, 0), walk(from, to, 1)];
+  return ways.find((way) => !way.some((one) => isLava(maze, one))) ?? [];
 }
 
 function grown(stroke: Stroke, cell: Cell): Stroke {
