@@ -1,7 +1,7 @@
 """On a phone held upright, no view is wider than the window."""
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Locator, Page, expect
 from tests.browser.conftest import Open
 from tests.browser.kit import Learner, ask, begun_run, wait_for_heading
 
@@ -53,6 +53,41 @@ def test_runs_fit_a_phone(open_page: Open, learner: Learner) -> None:
         page.goto(path)
         there.wait_for()
         assert too_wide(page) == [], path
+
+
+def sideways(page: Page) -> list[str]:
+    """The tables that can be read only by scrolling sideways."""
+    tables = page.locator("[role=region]:has(> table)").filter(visible=True)
+    tables.first.wait_for()
+    wide = "all => all.filter(one => one.scrollWidth > one.clientWidth).map(one => one.ariaLabel)"
+    return list(tables.evaluate_all(wide))
+
+
+def test_tables_of_runs_are_read_on_a_phone_without_scrolling_sideways(open_page: Open, learner: Learner) -> None:
+    run, page = begun_run(learner, open_page, "a run whose name is rather long for a phone", 5000.0, size=PHONE)
+    query = next(one["id"] for one in learner.call("GET", f"/runs/{run}/query-rows")["rows"])
+    own = ("", "/queries", f"/queries/{query}", "/ledger", "/gold")
+    for path in ("/runs", f"/runs/compare?run={run}", *(f"/runs/{run}{part}" for part in own)):
+        page.goto(path)
+        assert sideways(page) == [], path
+
+
+def test_on_a_phone_a_run_is_read_in_two_lines(open_page: Open, learner: Learner) -> None:
+    run, page = begun_run(learner, open_page, "short name", 5000.0, size=PHONE)
+    page.goto(f"/runs?text={run}")
+    row = page.get_by_role("row").filter(has_text="short name")
+    first = [row.get_by_role("link"), row.get_by_text("running")]
+    second = [row.get_by_role("cell", name=name) for name in ("Episodes 3", "Success 66.7%", "Cost 1")]
+    for one in (*first, *second):
+        expect(one).to_be_in_viewport(ratio=1)
+
+    def middles(line: list[Locator]) -> list[float]:
+        boxes = [one.bounding_box() for one in line]
+        return [box["y"] + box["height"] / 2 for box in boxes if box is not None]
+
+    assert max(middles(first)) < min(middles(second))
+    page.get_by_role("button", name="Name").click()  # the heads still sort
+    expect(page.get_by_role("columnheader", name="Name")).to_have_attribute("aria-sort", "ascending")
 
 
 def test_curves_of_several_runs_take_most_of_a_phone(open_page: Open, learner: Learner) -> None:

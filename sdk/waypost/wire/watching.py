@@ -161,7 +161,7 @@ class AtWorkList(Message):
     annotators: list[AtWork]
 
 
-Doing = Literal["asking", "training", "rolling_out", "paused", "finished"]
+Doing = Literal["nothing_yet", "asking", "training", "rolling_out", "paused", "finished"]
 
 
 class RunOutlook(Message):
@@ -177,7 +177,8 @@ class RunOutlook(Message):
     )
     doing: Doing = Field(
         description="What the learner does: it waits for answers (`asking`), learns from them (`training`), or acts "
-        "until it has something to ask (`rolling_out`); or the run is paused or finished."
+        "until it has something to ask (`rolling_out`); or it has neither asked nor reported anything yet "
+        "(`nothing_yet`); or the run is paused or finished."
     )
     seconds: float = Field(description="How long ago the run changed last, in seconds.")
     usual_seconds: float | None = Field(

@@ -24,6 +24,7 @@ MOST_DEMONSTRATIONS = 20  # the newest ones, of which it is known how they were 
 MOST_OPEN = 1_000  # more queries are not counted
 
 _UNANSWERED = or_(queries.c.state == "open", queries.c.state == "leased")
+_OF_LEARNER = ("asked", "used", "episode")  # changes that a learner makes; others end a run, or pause it
 _ORDER = case((runs.c.state == "running", 0), (runs.c.state == "paused", 1), else_=2)
 
 
@@ -90,6 +91,8 @@ def _doing(state: str, n_open: int, changes: Sequence[Row[Any]]) -> wire.Doing:
         return "finished" if state == "finished" else "paused"
     if n_open > 0:
         return "asking"
+    if not any(change.event in _OF_LEARNER for change in changes):
+        return "nothing_yet"
     return "training" if changes and changes[0].event in ("answered", "used") else "rolling_out"
 
 

@@ -182,7 +182,10 @@ def test_whoever_waits_is_told_what_the_learner_does_and_how_long_that_usually_t
         assert (found["run"], found["name"], found["domain"]) == (run, "watched", "maze")
         return dict(found)
 
-    assert (outlook()["doing"], outlook()["usual_seconds"], outlook()["kinds"]) == ("rolling_out", None, [])
+    assert (outlook()["doing"], outlook()["usual_seconds"], outlook()["kinds"]) == ("nothing_yet", None, [])
+    for state in ("paused", "running"):
+        service.learner.patch(run, state=state)
+    assert outlook()["doing"] == "nothing_yet", "people pause runs, too"
     asked = service.learner.ask(run, query(), query("label_hi", ordinal=1))
     assert (outlook()["doing"], outlook()["open"]) == ("asking", 10), "in tens, so that no gold query is noticed"
     for _ in asked:

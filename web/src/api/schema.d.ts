@@ -5020,10 +5020,10 @@ export interface components {
             demonstrations: ("hier_demo" | "flat_demo" | "play_on")[];
             /**
              * Doing
-             * @description What the learner does: it waits for answers (`asking`), learns from them (`training`), or acts until it has something to ask (`rolling_out`); or the run is paused or finished.
+             * @description What the learner does: it waits for answers (`asking`), learns from them (`training`), or acts until it has something to ask (`rolling_out`); or it has neither asked nor reported anything yet (`nothing_yet`); or the run is paused or finished.
              * @enum {string}
              */
-            doing: "asking" | "training" | "rolling_out" | "paused" | "finished";
+            doing: "nothing_yet" | "asking" | "training" | "rolling_out" | "paused" | "finished";
             /**
              * Seconds
              * @description How long ago the run changed last, in seconds.

@@ -41,7 +41,7 @@ describe('one thing is not counted as many', () => {
       seconds: 0,
       first_at: { '0.8': { cost: 1, episode: 3 } },
     } as unknown as Costs;
-    shown = mount(Tiles, { target: document.body, props: { run: { ...RUN, budget: 1 }, costs } });
+    shown = mount(Tiles, { target: document.body, props: { run: { ...RUN, budget: 1 }, costs, tests: 100 } });
     flushSync();
     expect(text()).not.toContain('unit'); // an annotator does not pay
     shell.me = { role: 'viewer' } as unknown as Me;

@@ -26,7 +26,18 @@ test('a learner at work says how long that usually takes, if that is known', () 
   expect(doingWords(run({ doing: 'paused' }))).toHaveLength(1);
 });
 
-test('a learner that reports nothing for long may have stopped, but not before its usual time', () => {
-  expect(doingWords(run({ seconds: 700 })).at(-1)).toContain('may have stopped');
-  expect(doingWords(run({ seconds: 700, usual_seconds: 300 })).at(-1)).toContain('5 min after');
+test('before anything was asked or reported, nobody is said to work', () => {
+  const said = (seconds: number): string[] => doingWords(run({ doing: 'nothing_yet', seconds }));
+  expect(said(10)).toEqual(['No learner has asked or reported anything for this run yet.']);
+  expect(said(240).at(-1)).toBe('Nothing has come for 4 min. Perhaps nobody has started a learner.');
+});
+
+test('a learner is silent after its usual time, and may have stopped after several times that', () => {
+  expect(doingWords(run({ seconds: 38 })).at(-1)).toContain('40 s after');
+  expect(doingWords(run({ seconds: 50.3 })).at(-1)).toBe('Nothing has come from it for 50 s.');
+  expect(doingWords(run({ seconds: 180 })).at(-1)).toContain('3 min, so it may have stopped');
+  expect(doingWords(run({ seconds: 700, usual_seconds: 300 })).at(-1)).toBe(
+    'Nothing has come from it for 12 min.',
+  );
+  expect(doingWords(run({ seconds: 25, usual_seconds: 2 })).at(-1)).toContain('2 s after');
 });

@@ -3,8 +3,8 @@ import type { RunOutlook } from '../api/types';
 import { t } from '../language/language';
 import { number, seconds } from '../ui/format';
 
-/** After so many times its usual time, or at least so many seconds, a learner that says nothing may have stopped. */
-const LONG = { times: 10, seconds: 600 };
+/** A learner is silent after its usual time or these seconds, whichever is longer; after `times` as long, it may have stopped. */
+const SILENT = { seconds: 30, times: 4 };
 
 /** Return how many questions are open. The server counts in tens, so that no gold query can be noticed. */
 export function openWords(open: number): string {
@@ -14,6 +14,7 @@ export function openWords(open: number): string {
 
 function doing(): Readonly<Record<RunOutlook['doing'], string>> {
   return {
+    nothing_yet: t('No learner has asked or reported anything for this run yet.'),
     asking: t(
       'The learner waits for answers to questions that others have now, or that you skipped or leave to others.',
     ),
@@ -27,11 +28,23 @@ function doing(): Readonly<Record<RunOutlook['doing'], string>> {
 /** Return what the learner of a run does, and how long it usually takes until its next question. */
 export function doingWords(run: RunOutlook): string[] {
   const words = [doing()[run.doing]];
+  if (run.doing === 'nothing_yet') return [...words, ...neverHeard(run.seconds)];
   if (run.doing !== 'training' && run.doing !== 'rolling_out') return words;
   const usual = run.usual_seconds;
   if (usual !== null)
     words.push(t(`Its next question usually comes ${seconds(usual)} after the last answer.`));
-  if (run.seconds > Math.max(LONG.seconds, LONG.times * (usual ?? 0)))
-    words.push(t(`It has reported nothing for ${seconds(run.seconds)}, so it may have stopped.`));
-  return words;
+  return [...words, ...silence(run.seconds, Math.max(SILENT.seconds, usual ?? 0))];
+}
+
+function neverHeard(passed: number): string[] {
+  if (passed <= SILENT.seconds) return [];
+  return [t(`Nothing has come for ${seconds(Math.round(passed))}. Perhaps nobody has started a learner.`)];
+}
+
+function silence(passed: number, usual: number): string[] {
+  if (passed <= usual) return [];
+  const silent = seconds(Math.round(passed));
+  return passed > SILENT.times * usual
+    ? [t(`Nothing has come from it for ${silent}, so it may have stopped.`)]
+    : [t(`Nothing has come from it for ${silent}.`)];
 }

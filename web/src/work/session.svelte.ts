@@ -148,6 +148,17 @@ export class WorkSession {
     }
   }
 
+  /** Ask what the learners do. If several questions overlap, only the last one counts. */
+  async refreshOutlook(): Promise<void> {
+    const at = (this.#outlookAt = performance.now());
+    try {
+      const outlook = await this.#server.outlook(this.#wanted.run);
+      if (at === this.#outlookAt) this.outlook = outlook;
+    } catch {
+      // The words stay as they were.
+    }
+  }
+
   async #send(pending: PendingAnswer): Promise<void> {
     const isNextThere = this.#ahead.size > 0;
     const next = leaseRequest(this.#wanted, this.#tab, isNextThere ? 0 : NEXT_SECONDS, isNextThere);
@@ -229,7 +240,7 @@ export class WorkSession {
         [attempts, wait] = [0, POLL_SECONDS];
         this.phase = 'waiting';
         void this.#refreshMe(); // it says who holds queries
-        void this.#refreshOutlook();
+        void this.refreshOutlook();
       } catch (error) {
         if (isAborted(error)) return;
         if (error instanceof Refused) {
@@ -255,7 +266,7 @@ export class WorkSession {
       () => this.lose(),
     );
     void this.#lookAhead();
-    if (performance.now() - this.#outlookAt > OUTLOOK_EVERY_MS) void this.#refreshOutlook();
+    if (performance.now() - this.#outlookAt > OUTLOOK_EVERY_MS) void this.refreshOutlook();
   }
 
   /** The lease is lost: tell the annotator and show the next query. */
@@ -317,15 +328,6 @@ export class WorkSession {
       else void this.#refreshMe(); // an answer was stored meanwhile; these numbers may not count it
     } catch {
       // The numbers in the footer stay as they were.
-    }
-  }
-
-  async #refreshOutlook(): Promise<void> {
-    this.#outlookAt = performance.now();
-    try {
-      this.outlook = await this.#server.outlook(this.#wanted.run);
-    } catch {
-      // The words stay as they were.
     }
   }
 

@@ -16,6 +16,9 @@ const KIND_MARKS: Readonly<Record<Kind, number>> = {
   label_full: 0,
 };
 
+/** Success is the share of so many tests, the last ones; with fewer tests, no level of it counts as reached. */
+export const WINDOW = 100;
+
 /** A quantity for the x axis. */
 export interface XAxis {
   readonly of: (curves: Curves) => readonly number[];
@@ -45,6 +48,11 @@ export function namesOfAxis(name: XAxisName): Readonly<Record<'axis' | 'choice',
 
 export function xAxisOf(name: string | null): XAxisName {
   return name !== null && Object.hasOwn(X_AXES, name) ? (name as XAxisName) : 'episode';
+}
+
+/** Return how many tests there were; some episodes have none. */
+export function testsIn(curves: Curves): number {
+  return curves.test_success.filter((outcome) => outcome !== null).length;
 }
 
 /** Return success as a series. Over cost or time it is a step function: the success reached so far. */

@@ -16,8 +16,8 @@ const range = (low: number | null, median: number | null, high: number | null): 
 });
 
 describe('a forecast in words', () => {
-  const said = (more: Partial<Forecast>, run: Partial<Run> = {}): string =>
-    sentencesOf(forecast(more), { ...RUN, ...run }).join(' ');
+  const said = (more: Partial<Forecast>, run: Partial<Run> = {}, tests = 100): string =>
+    sentencesOf(forecast(more), { ...RUN, ...run }, tests).join(' ');
 
   it.each<[string, Partial<Forecast>, string]>([
     [
@@ -76,6 +76,12 @@ describe('a forecast in words', () => {
   it('speaks of a finished run as of one that goes on no more', () => {
     expect(said({ more_units: range(81, 123, 256) }, { state: 'finished' })).toMatch(
       /^The run ended before 90% of tests succeeded\. If it had gone on: About 120 more units/,
+    );
+  });
+
+  it('says of a finished run with few tests that none of its successes counts yet', () => {
+    expect(said({ more_units: range(81, 123, 256) }, { state: 'finished' }, 60)).toMatch(
+      /^The run ended with 60 tests\. A level of success counts as reached from the 100th test on\. If it had/,
     );
   });
 

@@ -3,7 +3,7 @@ import type { Forecast, ForecastRange, Run } from '../../api/types';
 import type { Goal } from '../../charts/chart';
 import { t } from '../../language/language';
 import { count, number, percent, seconds, units } from '../../ui/format';
-import type { XAxisName } from './curves';
+import { WINDOW, type XAxisName } from './curves';
 
 export type Target = Forecast['target'];
 export const TARGETS = ['0.8', '0.9', '0.95', '0.99'] as const satisfies readonly Target[];
@@ -13,7 +13,7 @@ export function targetOf(name: string | null): Target {
 }
 
 /** Return what is known about a run's way to its target, as sentences. */
-export function sentencesOf(forecast: Forecast, run: Run): string[] {
+export function sentencesOf(forecast: Forecast, run: Run, tests: number): string[] {
   const target = percent(Number(forecast.target));
   const { reached, too_early, more_units, more_seconds } = forecast;
   if (reached) {
@@ -21,10 +21,7 @@ export function sentencesOf(forecast: Forecast, run: Run): string[] {
       t(`${target} of tests succeeded after ${units(reached.cost)}, in episode ${number(reached.episode)}.`),
     ];
   }
-  const ended =
-    run.state === 'finished'
-      ? [t(`The run ended before ${target} of tests succeeded. If it had gone on:`)]
-      : [];
+  const ended = run.state === 'finished' ? [...endedBefore(target, tests), t('If it had gone on:')] : [];
   if (too_early !== null)
     return [...ended, t(`Too early to say when ${target} of tests succeed. ${too_early}`)];
   if (more_units === null) return ended;
@@ -34,6 +31,17 @@ export function sentencesOf(forecast: Forecast, run: Run): string[] {
     ...(more_seconds?.median != null ? [timeLeft(more_seconds)] : []),
     ...budgetLeft(run, more_units),
   ];
+}
+
+/** Say why a finished run has not reached its target. */
+function endedBefore(target: string, tests: number): string[] {
+  if (tests >= WINDOW) return [t(`The run ended before ${target} of tests succeeded.`)];
+  return [count(tests, ['The run ended with # test.', 'The run ended with # tests.']), fromTestOn()];
+}
+
+/** Say from which test on a level of success counts as reached. */
+export function fromTestOn(): string {
+  return t('A level of success counts as reached from the 100th test on.');
 }
 
 function unitsLeft({ low, median, high }: ForecastRange, missed: number, target: string): string {
