@@ -193,19 +193,6 @@ def test_on_a_phone_map_and_buttons_are_in_reach_together(
     assert violations(page) == []
 
 
-def test_the_legend_names_the_marks(learner: Learner, open_page: Open) -> None:
-    run = learner.create_run("legend")
-    learner.ask(run, ask("inspect_full"), ask("label_lo", 1))
-    page = open_page(f"/work?run={run}")
-    wait_for_heading(page, ask("inspect_full")["question"])
-    legend = page.get_by_role("list", name="Legend").get_by_role("listitem")
-    expect(legend).to_have_text(["agent", "target", "door", "lava", "1Nsubgoal"])
-    page.keyboard.press("p")
-    wait_for_heading(page, ask("label_lo")["question"])
-    expect(legend.last).to_have_text("label")
-    expect(page.get_by_text("or drag along the right way.")).to_be_visible()
-
-
 def test_a_turn_of_a_conversation_leads_to_its_state(learner: Learner, open_page: Open) -> None:
     vocabulary = {"domain": "talk", "subgoals": ["ask"], "actions": ["say"], "renderer": "talk"}
     run = learner.create_run("talk", vocabulary=vocabulary)

@@ -4,9 +4,10 @@ import type { Label, Scene } from '../../player/scene';
 import type { Stretch } from '../../player/tape';
 import { isDoor, isLava, parseCell, type Cell, type Maze } from './geometry';
 import type { Place } from './hit';
-import { ARROW, BLOCK, labelRect, OUTWARD, placeMarkers, wayOf, type Rect } from './marks';
+import { AGENT, around, endMark, labelRect, wayOf, type Rect } from './marks';
 import type { Palette } from './palette';
 import type { Stroke } from './stroke';
+import { placeTags } from './tags';
 import { lanesOf, type Lane, type Point } from './trails';
 
 export interface Picture {
@@ -18,8 +19,8 @@ export interface Picture {
   readonly stroke: Stroke; // what the annotator is drawing
 }
 
-const LEAST_PLACE = 11; // CSS pixels: with its edge, the disc is a target of 24
-const LEAST_TEXT = 10; // CSS pixels: smaller letters cannot be read, so on a phone the markers are larger than a third
+const LEAST_PLACE = 11; // CSS pixels: with its edge, the box is a target of 24
+const LEAST_TEXT = 10; // CSS pixels: smaller letters cannot be read, so on a phone the tags are larger than a third
 
 type Brush = CanvasRenderingContext2D;
 
@@ -30,12 +31,12 @@ export function drawMaze(brush: Brush, picture: Picture): void {
   drawTarget(brush, picture);
   const lanes = lanesOf(picture.scene.tape.frames.map(parseCell));
   for (const stretch of inFront(picture.scene)) drawTrail(brush, picture, stretch, lanes);
+  for (const place of picture.places) drawPlace(brush, picture, place);
+  for (const label of picture.scene.labels) drawLabel(brush, picture, label);
+  drawTags(brush, picture);
+  drawStroke(brush, picture);
   drawAgent(brush, picture);
   drawEnd(brush, picture);
-  for (const place of picture.places) drawPlace(brush, picture, place);
-  drawMarkers(brush, picture);
-  for (const label of picture.scene.labels) drawLabel(brush, picture, label);
-  drawStroke(brush, picture);
 }
 
 function drawCells(brush: Brush, picture: Picture): void {
@@ -75,7 +76,7 @@ function drawFrame(brush: Brush, picture: Picture, [row, column]: Cell): void {
 function drawTarget(brush: Brush, picture: Picture): void {
   const { maze, palette } = picture;
   const unit = unitOf(picture);
-  const [x, y] = centre(picture, maze.goal, 0);
+  const [x, y] = centre(picture, maze.goal);
   brush.strokeStyle = palette.map.target;
   brush.lineWidth = unit * 0.1;
   for (const radius of [0.38, 0.2]) {
@@ -140,17 +141,18 @@ function fillTriangle(brush: Brush, [x, y]: readonly [number, number], [dy, dx]:
   brush.fill();
 }
 
-/** Draw where the trajectory ended: a cross in lava, a ring elsewhere, smaller where the agent is. */
+/** Draw where the trajectory ended, smaller where the agent is. */
 function drawEnd(brush: Brush, picture: Picture): void {
   const { maze, palette, scene } = picture;
   const last = scene.tape.frames.length - 1;
   const cell = cellAt(picture, last);
-  if (cell === null) return;
+  const mark = endMark(scene, maze);
+  if (cell === null || mark === null) return;
   const unit = unitOf(picture);
-  const [x, y] = centre(picture, cell, 0);
+  const [x, y] = centre(picture, cell);
   const isHere = scene.at === last;
   brush.beginPath();
-  if (isLava(maze, cell)) {
+  if (mark === 'cross') {
     const arm = unit * (isHere ? 0.12 : 0.22);
     for (const side of [-1, 1]) {
       brush.moveTo(x - arm, y - arm * side);
@@ -158,7 +160,7 @@ function drawEnd(brush: Brush, picture: Picture): void {
     }
     brush.strokeStyle = isHere ? palette.map['agent-edge'] : palette.map.burnt;
   } else {
-    if (!isHere) brush.arc(x, y, unit * 0.22, 0, 2 * Math.PI);
+    brush.arc(x, y, unit * 0.22, 0, 2 * Math.PI);
     brush.strokeStyle = palette.map.agent;
   }
   brush.lineWidth = unit * 0.09;
@@ -170,13 +172,13 @@ function inFront({ tape, current }: Scene): Stretch[] {
   return tape.stretches.toSorted((a, b) => Number(a.index === current) - Number(b.index === current));
 }
 
-/** Draw where subgoals were chosen, at corners of the cells that leave the labels free; the current one in front. */
-function drawMarkers(brush: Brush, picture: Picture): void {
-  const { scene } = picture;
+/** Draw where subgoals were chosen, beside their cells; the current one in front. */
+function drawTags(brush: Brush, picture: Picture): void {
+  const { scene, maze } = picture;
   const unit = unitOf(picture);
   const letters = Math.max(Math.round(unit * 0.34), LEAST_TEXT);
   brush.font = fontOf(letters);
-  const marked = scene.tape.stretches.flatMap((stretch) => {
+  const tagged = scene.tape.stretches.flatMap((stretch) => {
     const cell = cellAt(picture, stretch.first);
     if (cell === null || stretch.subgoal === null) return [];
     const tag = tagOf(stretch.subgoal, scene.vocabulary.subgoals);
@@ -188,16 +190,17 @@ function drawMarkers(brush: Brush, picture: Picture): void {
     const cell = cellAt(picture, label.frame);
     return cell === null ? [] : [labelRect(cell, label)];
   });
-  const rects = placeMarkers(marked, labels);
-  const drawn = marked.map((marker, index) => ({ ...marker, rect: rects[index] }));
+  const others = [...labels, ...picture.places.map((place) => placeRect(picture, place))];
+  const rects = placeTags(tagged, { agent: cellAt(picture, scene.at), others, cells: maze.rows.length });
+  const drawn = tagged.map((tag, index) => ({ ...tag, rect: rects[index] }));
   const isCurrent = ({ stretch }: { stretch: Stretch }): boolean => stretch.index === scene.current;
-  for (const { rect, ...marker } of drawn.toSorted((a, b) => Number(isCurrent(a)) - Number(isCurrent(b)))) {
-    if (rect !== undefined) drawMarker(brush, picture, marker, rect);
+  for (const { rect, ...tag } of drawn.toSorted((a, b) => Number(isCurrent(a)) - Number(isCurrent(b)))) {
+    if (rect !== undefined) drawTag(brush, picture, tag, rect);
   }
 }
 
 /** Draw where a subgoal was chosen: its number and tag. */
-function drawMarker(
+function drawTag(
   brush: Brush,
   picture: Picture,
   { stretch, text }: { stretch: Stretch; text: string },
@@ -224,39 +227,46 @@ function drawMarker(
   brush.globalAlpha = 1;
 }
 
-/** Draw a label: an arrow out of its state, a disc for the target, a square where the segment should have ended. */
+/** Draw a label: an arrow, a diamond for the target, a square where the segment should have ended. */
 function drawLabel(brush: Brush, picture: Picture, label: Label): void {
   const cell = cellAt(picture, label.frame);
   if (cell === null) return;
   const { palette } = picture;
   const unit = unitOf(picture);
-  const [x, y] = centre(picture, cell, 0);
-  const way = wayOf(label);
-  brush.fillStyle = palette.map.label;
+  const corners = cornersOf(label, labelRect(cell, label));
+  brush.beginPath();
+  for (const [row, column] of corners) brush.lineTo(column * unit, row * unit);
+  brush.closePath();
+  brush.lineJoin = 'miter';
   brush.strokeStyle = palette.map['label-edge'];
-  brush.lineWidth = unit * 0.06;
-  if (way) {
-    fillTriangle(brush, [x + way[1] * unit * OUTWARD, y + way[0] * unit * OUTWARD], way, unit * ARROW);
-  } else if (label.name === null) {
-    brush.fillRect(x - unit * 0.2, y - unit * 0.2, unit * 0.4, unit * 0.4);
-  } else {
-    brush.beginPath();
-    brush.arc(x, y, unit * BLOCK, 0, 2 * Math.PI);
-    brush.fill();
-  }
+  brush.lineWidth = unit * 0.12; // half of it is outside
   brush.stroke();
+  brush.fillStyle = palette.map.label;
+  brush.fill();
 }
 
-/** Draw where a subgoal can be chosen: its tag in a disc, filled if it is the label of the current segment. */
-function drawPlace(brush: Brush, picture: Picture, { subgoal, cell }: Place): void {
+/** Return the corners of a label's shape in its rectangle. */
+function cornersOf(label: Label, { top, left, bottom, right }: Rect): Point[] {
+  const [row, column] = [(top + bottom) / 2, (left + right) / 2];
+  const all: Point[] = [[top, left], [top, right], [bottom, right], [bottom, left]]; // prettier-ignore
+  const tips: Point[] = [[top, column], [row, right], [bottom, column], [row, left]]; // prettier-ignore
+  const way = wayOf(label);
+  if (way === null) return label.name === null ? all : tips;
+  const ahead = ([y, x]: Point): number => (y - row) * way[0] + (x - column) * way[1];
+  return [...all.filter((corner) => ahead(corner) < 0), ...tips.filter((tip) => ahead(tip) > 0)];
+}
+
+/** Draw where a subgoal can be chosen: its tag in a box, filled if it is the label of the current segment. */
+function drawPlace(brush: Brush, picture: Picture, place: Place): void {
   const { palette, scene } = picture;
+  const { subgoal } = place;
   const unit = unitOf(picture);
-  const [x, y] = centre(picture, cell, 0);
+  const { top, left, bottom, right } = placeRect(picture, place);
   const first = scene.tape.stretches[scene.current ?? -1]?.first;
   const isChosen = scene.labels.some((label) => label.frame === first && label.name === subgoal);
   const color = palette.subgoals[scene.vocabulary.subgoals.indexOf(subgoal) % palette.subgoals.length] ?? '';
   brush.beginPath();
-  brush.arc(x, y, Math.max(unit * 0.42, LEAST_PLACE), 0, 2 * Math.PI);
+  brush.roundRect(left * unit, top * unit, (right - left) * unit, (bottom - top) * unit, unit * 0.2);
   brush.fillStyle = isChosen ? color : palette.map.floor;
   brush.fill();
   brush.strokeStyle = color;
@@ -266,7 +276,13 @@ function drawPlace(brush: Brush, picture: Picture, { subgoal, cell }: Place): vo
   brush.fillStyle = isChosen ? palette.map['marker-text'] : color;
   brush.textAlign = 'center';
   brush.textBaseline = 'middle';
+  const [x, y] = centre(picture, place.cell);
   brush.fillText(tagOf(subgoal, scene.vocabulary.subgoals), x, y + unit * 0.02);
+}
+
+function placeRect(picture: Picture, { cell: [row, column] }: Place): Rect {
+  const side = 2 * Math.max(0.42, LEAST_PLACE / unitOf(picture));
+  return around([row + 0.5, column + 0.5], [side, side]);
 }
 
 /** Draw the way that the annotator is drawing, with an arrow at its tip. */
@@ -283,28 +299,26 @@ function drawStroke(brush: Brush, picture: Picture): void {
     brush.strokeStyle = brush.fillStyle = color;
     brush.lineWidth = unit * width;
     brush.beginPath();
-    for (const cell of stroke) brush.lineTo(...centre(picture, cell, 0));
+    for (const cell of stroke) brush.lineTo(...centre(picture, cell));
     brush.stroke();
-    fillTriangle(
-      brush,
-      centre(picture, tip, 0),
-      [tip[0] - before[0], tip[1] - before[1]],
-      unit * (width + 0.1),
-    );
+    fillTriangle(brush, centre(picture, tip), [tip[0] - before[0], tip[1] - before[1]], unit * (width + 0.1));
   }
 }
 
 function drawAgent(brush: Brush, picture: Picture): void {
   const cell = cellAt(picture, picture.scene.at);
   if (cell === null) return;
+  const { palette } = picture;
   const unit = unitOf(picture);
-  brush.beginPath();
-  brush.arc(...centre(picture, cell, 0), unit * 0.28, 0, 2 * Math.PI);
-  brush.fillStyle = picture.palette.map.agent;
-  brush.fill();
-  brush.strokeStyle = picture.palette.map['agent-edge'];
-  brush.lineWidth = unit * 0.1;
-  brush.stroke();
+  for (const [color, radius] of [
+    [palette.map['agent-edge'], AGENT],
+    [palette.map.agent, AGENT - 0.07],
+  ] as const) {
+    brush.beginPath();
+    brush.arc(...centre(picture, cell), unit * radius, 0, 2 * Math.PI);
+    brush.fillStyle = color;
+    brush.fill();
+  }
 }
 
 function colorOf({ scene, palette }: Picture, stretch: Stretch): string {
@@ -316,9 +330,9 @@ function cellAt({ scene }: Picture, frame: number): Cell | null {
   return parseCell(scene.tape.frames[frame]);
 }
 
-function centre(picture: Picture, cell: Cell, offset: number): [x: number, y: number] {
+function centre(picture: Picture, [row, column]: Cell): [x: number, y: number] {
   const unit = unitOf(picture);
-  return [(cell[1] + 0.5 + offset) * unit, (cell[0] + 0.5 + offset) * unit];
+  return [(column + 0.5) * unit, (row + 0.5) * unit];
 }
 
 function fontOf(pixels: number): string {
