@@ -136,7 +136,8 @@ def train(
         for part, instead in setup.missing.items():
             typer.echo(f"The domain {domain!r} provides no {part}. {instead}", err=True)
         folder = checkpoint_folder(checkpoints, store, server)
-        options = RunOptions(name, budget, resume, folder, threads, loggers, server, measure, measure_every)
+        asks = expert == "queue"
+        options = RunOptions(name, budget, resume, folder, threads, loggers, server, measure, measure_every, asks)
         tracing.install("waypost-learner")
         with ExitStack() as stack:
             connection = stack.enter_context(

@@ -160,6 +160,14 @@ class Client:
         """Make queries gold; return all gold queries of the run, newest first."""
         return self._call(wire.GoldList, "POST", f"/runs/{run}/gold", gold).gold
 
+    def practice(self, domain: str) -> wire.Practice:
+        """Return the practice queries of a domain."""
+        return self._call(wire.Practice, "GET", "/practice", params={"domain": domain})
+
+    def put_practice(self, run: str, practice: wire.PracticePut) -> None:
+        """Send practice queries of the run's domain. Their pictures were uploaded before."""
+        self._send("PUT", f"/runs/{run}/practice", practice)
+
     def costs(self, run: str) -> wire.Costs:
         """Return the sums of the ledger."""
         return self._call(wire.Costs, "GET", f"/runs/{run}/costs")

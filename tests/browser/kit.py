@@ -273,10 +273,10 @@ def begun_run(
 ) -> tuple[str, Page]:
     """Return a run with three episodes, and an administrator's page that has answered one of its two questions."""
     run = learner.create_run(name, budget=budget)
-    learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
+    first, second = learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
     page = open_page(f"/work?run={run}", role="admin", **opened)
-    wait_for_heading(page, ask("inspect_full")["question"])
+    page.locator(f"#question[data-query='{first}']:focus").wait_for()  # in any language
     page.keyboard.press("f")
-    wait_for_heading(page, ask("label_hi")["question"])
+    page.locator(f"#question[data-query='{second}']:focus").wait_for()
     learner.report(run, [True, False, True])
     return run, page

@@ -144,6 +144,21 @@ def box(page: Page, subgoal: str) -> Locator:
     return page.get_by_role("button", name=f"Choose the subgoal {subgoal}")
 
 
+def test_a_frame_on_the_strip_is_as_wide_and_as_high_as_its_picture(open_page: Open, served: Served) -> None:
+    with client_of(served) as client:
+        run = ask_label_hi(client)
+    page = open_page(f"/work?run={run}")
+    wait_for_heading(page, LABEL_HI)
+    for size in ({"width": 1440, "height": 900}, {"width": 768, "height": 1024}):
+        page.set_viewport_size(size)
+        expect(steps(page).locator("img").first).to_have_js_property("complete", True)
+        for still in steps(page).locator("img").all():
+            shown = still.bounding_box()
+            assert shown is not None
+            assert shown["width"] >= 180
+            assert shown["width"] / shown["height"] == pytest.approx(13, rel=0.05), "thirteen cells side by side"
+
+
 def test_pictures_show_where_each_subgoal_was_decided(open_page: Open, served: Served) -> None:
     with client_of(served) as client:
         run = ask_label_hi(client)
@@ -157,9 +172,6 @@ def test_pictures_show_where_each_subgoal_was_decided(open_page: Open, served: S
     expect(strip).to_have_count(5)
     expect(strip.nth(1)).to_have_attribute("aria-current", "step")
     assert agents_cell(page) == 4
-    size = strip.first.get_by_role("presentation").bounding_box()
-    assert size is not None
-    assert size["height"] >= 72
     page.keyboard.press("?")
     help_ = page.get_by_role("dialog", name="Keys")
     expect(help_).to_contain_text("Under the picture are the states where a subgoal was chosen, and the steps")

@@ -23,7 +23,7 @@ from waypost_learner.remote.translation import Translator, vocabulary
 from waypost_learner.rollout.simulator import Simulator
 
 WRONG_SUBGOAL, WRONG_ACTION, WRONG_END = 0.12, 0.04, 0.1  # probabilities of the learner's errors
-CANDIDATES = 150  # rollouts from which the exercises are picked
+CANDIDATES = 150  # rollouts from which the exercises of a file are picked
 MOST_ACTIONS, MOST_SEGMENTS = 14, 6  # upper limits for one exercise
 
 
@@ -36,18 +36,8 @@ class Rollout:
     succeeded: bool
 
 
-@dataclass(frozen=True)
-class Exercise:
-    """An exercise as the file keeps it, and the PNG files of its frames by their hashes."""
-
-    content: dict[str, Any]
-    frames: dict[str, bytes]
-
-
 def practice(domain: Domain, instances: str, seed: int) -> str:
-    """Return the text of a file of practice queries: two of each kind, if the rollouts contain suitable ones.
-
-    It has a demonstration, too, for each way in which one is asked for, if the oracle can give one.
+    """Return the text of a file of practice queries.
 
     Args:
         domain: the domain; its oracle gives the right answers.
@@ -57,10 +47,30 @@ def practice(domain: Domain, instances: str, seed: int) -> str:
     Raises:
         ValueError: the domain has no oracle, or no rollout is suitable.
     """
+    content, frames = made(domain, instances, seed)
+    pictures = [json.dumps({"hash": one, "png": b64encode(file).decode()}) for one, file in frames.items()]
+    parts = [f'"vocabulary": {vocabulary(domain).model_dump_json()}']
+    if pictures:
+        parts.append(f'"frames": {_lines(pictures)}')
+    parts.append(f'"exercises": {_lines([one.model_dump_json() for one in content.exercises])}')
+    parts.append(f'"demonstrations": {_lines([one.model_dump_json() for one in content.demonstrations])}')
+    return "{" + ",\n".join(parts) + "}\n"
+
+
+def made(
+    domain: Domain, instances: str, seed: int, candidates: int = CANDIDATES
+) -> tuple[wire.PracticePut, dict[str, bytes]]:
+    """Return practice queries, two of each kind if the rollouts contain suitable ones, and their pictures by hash.
+
+    With them comes a demonstration for each way in which one is asked for, if the oracle can give one.
+
+    Raises:
+        ValueError: the domain has no oracle, or no rollout is suitable.
+    """
     oracle = oracle_of(domain)
     if oracle is None:
         raise ValueError(f"the domain {domain.name!r} has no oracle, so its right answers are not known")
-    rollouts = list(islice(_rollouts(domain, oracle, instances, seed), CANDIDATES))
+    rollouts = list(islice(_rollouts(domain, oracle, instances, seed), candidates))
     picks = [pick for pick in _picks() if domain.subgoals or pick.flat]
     found = [_exercise(domain, rollouts, place, pick) for place, pick in enumerate(picks)]
     exercises = [one for one in found if one is not None]
@@ -68,15 +78,12 @@ def practice(domain: Domain, instances: str, seed: int) -> str:
         raise ValueError("no rollout is suitable for practice: try another --seed")
     shown = list(demonstrations(domain, oracle, [(one.instance, one.sigma) for one in rollouts]))
     frames: dict[str, bytes] = {}
-    for taken in [*(one.frames for one in exercises), *(taken for _, taken in shown)]:
+    for taken in [*(files for _, files in exercises), *(files for _, files in shown)]:
         frames |= taken
-    pictures = [json.dumps({"hash": one, "png": b64encode(file).decode()}) for one, file in frames.items()]
-    parts = [f'"vocabulary": {vocabulary(domain).model_dump_json()}']
-    if pictures:
-        parts.append(f'"frames": {_lines(pictures)}')
-    parts.append(f'"exercises": {_lines([json.dumps(one.content, ensure_ascii=False) for one in exercises])}')
-    parts.append(f'"demonstrations": {_lines([one.model_dump_json() for one, _ in shown])}')
-    return "{" + ",\n".join(parts) + "}\n"
+    content = wire.PracticePut(
+        exercises=[exercise for exercise, _ in exercises], demonstrations=[one for one, _ in shown]
+    )
+    return content, frames
 
 
 def _lines(values: Sequence[str]) -> str:
@@ -116,12 +123,13 @@ class Pick:
     queries: Callable[[Rollout], Iterator[Query]]
     worth: Callable[[wire.Known, wire.Ask], float]
     flat: bool = False  # whether it also suits domains without subgoals
+    spare: Callable[[Rollout], Iterator[Query]] | None = None  # queries to take if none of `queries` is suitable
 
 
 def _picks() -> list[Pick]:
     return [
         Pick(_inspect_full, lambda known, ask: _is(known, "pass") / _length(ask), flat=True),
-        Pick(_inspect_full, lambda known, ask: _is(known, "fail") * _length(ask), flat=True),
+        Pick(_inspect_full, lambda known, ask: _is(known, "fail") * _length(ask), flat=True, spare=_unfinished),
         Pick(_inspect_lo, lambda known, ask: _is(known, "pass") * _length(ask)),
         Pick(_inspect_lo, lambda known, ask: _is(known, "fail") * _length(ask)),
         Pick(_label_hi, lambda known, ask: _errors(known, ask) == 1),
@@ -133,23 +141,39 @@ def _picks() -> list[Pick]:
     ]
 
 
-def _exercise(domain: Domain, rollouts: list[Rollout], place: int, pick: Pick) -> Exercise | None:
-    best: tuple[float, Rollout, Query] | None = None
-    for rollout in rollouts:
-        translator = Translator(domain, rollout.instance)
-        for query in pick.queries(rollout):
-            ask = translator.ask(query, episode=0, ordinal=place)
-            worth = float(pick.worth(solve(domain, ask).known, ask))
-            if worth > (best[0] if best else 0.0):
-                best = (worth, rollout, query)
+def _exercise(
+    domain: Domain, rollouts: list[Rollout], place: int, pick: Pick
+) -> tuple[wire.Exercise, dict[str, bytes]] | None:
+    """Return an exercise and the PNG files of its frames by their hashes; None if no rollout is suitable."""
+    best = _best(domain, rollouts, pick.queries, pick.worth)
+    if best is None and pick.spare is not None:
+        best = _best(domain, rollouts, pick.spare, pick.worth)
     if best is None:
         return None
-    _, rollout, query = best
+    rollout, query = best
     camera = Camera(domain, rollout.instance)  # only now, because pictures take long
     ask = Translator(domain, rollout.instance, camera).ask(query, episode=0, ordinal=place)
     solution = solve(domain, ask)
-    content = wire.KnownAsk(ask=ask, known=solution.known).model_dump(mode="json")
-    return Exercise({**content, "reasons": list(solution.reasons)}, camera.developed())
+    exercise = wire.Exercise(ask=ask, known=solution.known, reasons=list(solution.reasons))
+    return exercise, camera.developed()
+
+
+def _best(
+    domain: Domain,
+    rollouts: list[Rollout],
+    queries: Callable[[Rollout], Iterator[Query]],
+    worth: Callable[[wire.Known, wire.Ask], float],
+) -> tuple[Rollout, Query] | None:
+    """Return the first query with the highest worth, and its rollout; None if no worth is above 0."""
+    best, most = None, 0.0
+    for rollout in rollouts:
+        translator = Translator(domain, rollout.instance)
+        for query in queries(rollout):
+            ask = translator.ask(query, episode=0, ordinal=0)
+            found = float(worth(solve(domain, ask).known, ask))
+            if found > most:
+                best, most = (rollout, query), found
+    return best
 
 
 # --- the queries of a rollout
@@ -157,6 +181,12 @@ def _exercise(domain: Domain, rollouts: list[Rollout], place: int, pick: Pick) -
 
 def _inspect_full(rollout: Rollout) -> Iterator[Query]:
     yield InspectFull(rollout.sigma)
+
+
+def _unfinished(rollout: Rollout) -> Iterator[Query]:
+    """Yield the rollout without its end, for a domain in which even a learner that errs always succeeds."""
+    if len(rollout.sigma) > 1:
+        yield InspectFull(rollout.sigma[:-1])
 
 
 def _inspect_lo(rollout: Rollout) -> Iterator[Query]:

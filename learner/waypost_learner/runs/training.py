@@ -20,6 +20,7 @@ from waypost_learner.runs import checkpoints
 from waypost_learner.runs.config import NOT_PROVIDED, START, Progress, TrainConfig, config_values, settings_of
 from waypost_learner.runs.driver import Driver, Hooks, Offer
 from waypost_learner.runs.measuring import Measuring
+from waypost_learner.runs.practice import send_practice
 from waypost_learner.runs.run_queue import RunQueue
 from waypost_learner.runs.setup import Setup, set_up
 from waypost_learner.runs.summary import finish
@@ -40,6 +41,7 @@ class RunOptions:
     server: str | None = None  # the server's address, for the links of loggers to the run's page
     measure: str | None = None  # instances to measure the policies on after each change; no measurement if None
     measure_every: int = 1  # episodes from one possible measurement to the next
+    practice: bool = False  # whether people practice for this run: the server gets practice queries if it has none
 
 
 def train(
@@ -76,6 +78,8 @@ def train(
     path = options.checkpoints / f"{run.id}.safetensors"
     first = _load_checkpoint(path, learner) if options.resume else START
     on_start(run, first.episodes)
+    if options.practice and (trouble := send_practice(connection.learner, run.id, learner.domain, config.instances)):
+        tell(trouble)
     measuring = None
     if measured is not None:
         file = path.with_suffix(".measured.csv")

@@ -11,6 +11,7 @@ from waypost.wire.words import Kind, Message, Name, Verdict
 
 __all__ = [
     "Choices",
+    "Exercise",
     "Feedback",
     "Gold",
     "GoldList",
@@ -24,11 +25,15 @@ __all__ = [
     "Mark",
     "Practice",
     "PracticeAnswer",
+    "PracticePut",
     "PracticeQuery",
     "Reason",
     "WorkedDemonstration",
     "WorkedExample",
 ]
+
+
+MOST_EXERCISES = 100  # that a learner sends for a run
 
 
 class KnownVerdict(Message):
@@ -134,6 +139,12 @@ Reason = Literal["accomplished", "not_accomplished", "shortest", "no_way"]
 """Why labels are correct; `Feedback.reasons` says what each means."""
 
 
+class Exercise(KnownAsk):
+    """A practice query with its correct answers and a reason for each label."""
+
+    reasons: list[Reason] = Field(max_length=100_000, description="For each label, why the correct labels are correct.")
+
+
 class Feedback(Message):
     """The server's reply to a practice answer: each label compared with the correct ones."""
 
@@ -175,6 +186,15 @@ class Practice(Message):
         description="At most one for each way in which demonstrations are asked for."
     )
     domains: list[str] = Field(description="All domains that can be practiced on this server.")
+
+
+class PracticePut(Message):
+    """Practice queries of a run's domain, sent by its learner. Their pictures are uploaded before."""
+
+    exercises: list[Exercise] = Field(min_length=1, max_length=MOST_EXERCISES)
+    demonstrations: list[WorkedDemonstration] = Field(
+        max_length=10, description="At most one for each way in which demonstrations are asked for."
+    )
 
 
 class PracticeAnswer(Message):

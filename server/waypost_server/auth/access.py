@@ -66,6 +66,7 @@ ACCESS: Mapping[str, Access] = {
     "addGold": OWN_RUN,
     "retireGold": OWN_RUN,
     "listGold": _LEARN,
+    "putPractice": OWN_RUN,
     # review
     "listReview": OWN_RUN,
     "comment": OWN_RUN,

@@ -378,6 +378,14 @@ gold = Table(
     sqlite_autoincrement=True,
 )
 
+# Practice queries of a run's domain, which its learner sent, with the right answers.
+practices = Table(
+    "practices",
+    metadata,
+    Column("run_id", Text, ForeignKey("runs.id"), primary_key=True),
+    Column("content", Text, nullable=False),
+)
+
 # One showing of a gold query to one annotator: a query in the run's shadow, and how many labels were right.
 gold_showings = Table(
     "probes",

@@ -13,7 +13,13 @@ from tests.browser.test_narrow import PHONE, too_wide
 from waypost_server.serving import Served
 
 GERMAN = "de-DE"
-KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
+QUESTIONS = {
+    "inspect_full": "Ist die ganze Aufgabe gelöst?",
+    "label_hi": "Welches Teilziel wäre in jedem Segment richtig gewesen?",
+    "inspect_lo": "Versucht wurde „east“. Ist das gelungen?",
+    "label_lo": "Versucht wurde „east“. Was wäre in jedem Schritt richtig gewesen?",
+    "label_full": "Was wäre in jedem Schritt richtig gewesen?",
+}
 READ = """() => [...document.querySelectorAll('body *')].flatMap(one => [
     ...[...one.childNodes].filter(node => node.nodeType === Node.TEXT_NODE).map(node => node.textContent),
     ...['aria-label', 'title', 'placeholder', 'alt'].map(name => one.getAttribute(name) ?? ''),
@@ -46,10 +52,11 @@ def check(page: Page) -> None:
 
 def test_questions_are_answered_in_german(open_page: Open, learner: Learner) -> None:
     run = learner.create_run("Labyrinth", budget=500.0)
-    learner.ask(run, *[ask(kind, ordinal=ordinal) for ordinal, kind in enumerate(KINDS)])
+    own = {"label_lo": {"question": "It tried “east”. What should it have done at each step?"}}
+    learner.ask(run, *[ask(kind, ordinal=ordinal, **own.get(kind, {})) for ordinal, kind in enumerate(QUESTIONS)])
     page = open_page(f"/work?run={run}", role="admin", locale=GERMAN, motion="reduce")
-    for kind in KINDS:
-        wait_for_heading(page, ask(kind)["question"])  # the learner's words
+    for kind, question in QUESTIONS.items():
+        wait_for_heading(page, question)
         if kind.startswith("label"):
             page.keyboard.press("Enter")
             page.keyboard.press("2")
@@ -61,6 +68,13 @@ def test_questions_are_answered_in_german(open_page: Open, learner: Learner) -> 
     page.keyboard.press("?")
     expect(page.get_by_role("dialog", name="Tasten")).to_contain_text("Strg K")
     check(page)
+
+
+def test_a_question_in_other_words_is_shown_as_its_learner_asks_it(open_page: Open, learner: Learner) -> None:
+    run = learner.create_run("eigene Worte")
+    learner.ask(run, ask("inspect_full", question="Is the cube in the box?"))
+    page = open_page(f"/work?run={run}", locale=GERMAN)
+    wait_for_heading(page, "Is the cube in the box?")
 
 
 def test_runs_are_german_with_german_numbers_and_dates(open_page: Open, learner: Learner) -> None:
@@ -94,7 +108,7 @@ def test_practice_and_people_are_german(open_page: Open) -> None:
     page.get_by_role("heading", name="Übung").wait_for()
     check(page)
     page.keyboard.press("Enter")
-    wait_for_heading(page, ask("inspect_full")["question"])
+    wait_for_heading(page, QUESTIONS["inspect_full"])
     page.keyboard.press("f")
     wait_for_heading(page, "Nicht richtig")
     expect(page.get_by_text("Die Aufgabe ist im letzten Zustand gelöst.")).to_be_visible()
@@ -129,7 +143,7 @@ def test_why_the_server_refuses_is_german(open_page: Open, learner: Learner, com
     run = learner.create_run("endet bald")
     learner.ask(run, ask("inspect_full"))
     page = open_page(f"/work?run={run}", locale=GERMAN)
-    wait_for_heading(page, ask("inspect_full")["question"])
+    wait_for_heading(page, QUESTIONS["inspect_full"])
     learner.call("PATCH", f"/runs/{run}", {"state": "finished"})
     page.keyboard.press("f")
     refused = "Der Server hat diese Antwort nicht angenommen: Der Lauf ist beendet und mit ihm seine offenen Fragen."

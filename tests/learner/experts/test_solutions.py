@@ -112,7 +112,7 @@ def test_practice_has_the_pictures_of_a_domain_that_draws_its_states(tmp_path: P
     shown = [one for ask in asks for one in (*getattr(ask, "segments", ()), *ask.context)]
     shown += [one.answer.replay for one in offered.demonstrations]
     assert all(len(one.frames) == len(one.states) for one in shown)
-    assert {frame for one in shown for frame in one.frames} == set(made.frames)
+    assert {frame for one in shown for frame in one.frames} == set(made.files)
 
     content = json.loads(file.read_text())
     content["frames"].pop()

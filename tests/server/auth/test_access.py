@@ -23,6 +23,11 @@ from waypost_server.settings import Settings
 HOOK = "https://hooks.example.org/waypost"
 EPISODE = {"episode": 0, "warm_start": False, "train_success": True, "test_success": True, "train_steps": 1}
 RESULT = EPISODE | {"test_steps": 1, "hi_labels": 0, "lo_labels": 0, "seconds": 0.5}
+EXERCISE = {
+    "ask": query("inspect_full"),
+    "known": {"kind": "inspect_full", "verdict": "pass"},
+    "reasons": ["accomplished"],
+}
 
 OPEN = {"healthz", "readyz", "login", "getSignIn", "beginSignIn", "endSignIn"}
 # `owner` is the learner whose run it is, and `learner` another one; `holder` is the annotator who leased the query.
@@ -44,6 +49,7 @@ MATRIX: dict[str, set[str]] = {
     "addGold": OWNER,
     "retireGold": OWNER,
     "listGold": LEARNERS,
+    "putPractice": OWNER,
     "listReview": OWNER,
     "comment": OWNER,
     "sendBack": OWNER,
@@ -175,6 +181,7 @@ BODIES: dict[str, Body] = {
     "reportEpisodes": lambda _: {"episodes": [RESULT]},
     "ask": lambda _: {"queries": [query(episode=3)]},
     "addGold": lambda scene: {"answered": [scene.answered["query"]["id"]]},
+    "putPractice": lambda _: {"exercises": [EXERCISE], "demonstrations": []},
     "comment": lambda _: {"text": "Why?"},
     "sendBack": lambda scene: {"answer": scene.answer, "text": "Look again."},
     "putFrames": lambda scene: {"frames": [scene.frame]},

@@ -144,3 +144,62 @@ def test_the_pictures_of_practice_queries_are_served_like_those_of_a_run(sqlite_
     file.write_text(json.dumps(own))
     with pytest.raises(BadPractice, match="not the SHA-256"):
         PracticeSet(file)
+
+
+def of_taxi(**more: Json) -> Json:
+    """A run of a domain that the server has no file for."""
+    return {"vocabulary": OWN["vocabulary"] | {"domain": "taxi", "renderer": "none"}, **more}
+
+
+def sent(n: int = 3) -> Json:
+    """What a learner sends."""
+    return {"exercises": EXERCISES[:n], "demonstrations": DEMONSTRATIONS}
+
+
+def test_a_learner_sends_the_practice_of_its_domain(service: Service) -> None:
+    run = service.learner.create_run(**of_taxi())
+    service.learner.call("PUT", f"/runs/{run}/practice", sent(), 204)
+    found = service.annotator.get("/practice?domain=taxi")
+    assert found["vocabulary"]["domain"] == "taxi"
+    assert found["domains"] == ["maze", "taxi"]
+    assert [one["ask"] for one in found["queries"]] == [one["ask"] for one in EXERCISES[:3]]
+    assert found["demonstrations"] == DEMONSTRATIONS
+    for one, exercise in zip(found["queries"], EXERCISES, strict=False):
+        assert service.annotator.post(f"/practice/{one['id']}", {"answer": best(exercise, 0)})["is_right"]
+    service.annotator.post(f"/practice/{found['queries'][-1]['id'] + 1}", {"answer": best(EXERCISES[0], 0)}, 404)
+    assert service.annotator.get("/practice")["vocabulary"]["domain"] == "maze"
+
+
+def test_the_newest_run_counts_and_a_deleted_one_takes_its_practice_with_it(service: Service) -> None:
+    runs = [service.learner.create_run(**of_taxi()) for _ in range(2)]
+    for n, run in enumerate(runs):
+        service.learner.call("PUT", f"/runs/{run}/practice", sent(9), 204)
+        service.learner.call("PUT", f"/runs/{run}/practice", sent(n + 1), 204)
+    for n in (2, 1):
+        assert len(service.annotator.get("/practice?domain=taxi")["queries"]) == n
+        service.learner.patch(runs[n - 1], state="finished")
+        service.learner.call("DELETE", f"/runs/{runs[n - 1]}")
+    service.annotator.get("/practice?domain=taxi", 404)
+
+
+def test_a_file_counts_more_than_what_a_learner_sends(lite: Service) -> None:
+    run = lite.learner.create_run(vocabulary=OWN["vocabulary"])
+    lite.learner.call("PUT", f"/runs/{run}/practice", sent(1), 204)
+    found = lite.annotator.get("/practice")
+    assert found["domains"] == ["maze"]
+    assert len(found["queries"]) == len(EXERCISES)
+
+
+def test_practice_that_does_not_fit_its_run_is_refused(lite: Service) -> None:
+    run = lite.learner.create_run(**of_taxi())
+    place = f"/runs/{run}/practice"
+    other = json.loads(json.dumps(EXERCISES[0]))
+    other["ask"]["segments"][0]["subgoal"] = "fly"
+    lite.learner.call("PUT", place, {"exercises": [other], "demonstrations": []}, 422)
+    picture = json.loads(json.dumps(EXERCISES[0]))
+    for one in picture["ask"]["segments"]:
+        one["frames"] = ["0" * 64] * len(one["states"])
+    refused = lite.learner.call("PUT", place, {"exercises": [picture], "demonstrations": []}, 422)
+    assert "is not stored; upload it before" in refused["detail"]
+    lite.learner.call("PUT", place, {"exercises": [], "demonstrations": []}, 422)
+    lite.annotator.get("/practice?domain=taxi", 404)

@@ -1286,6 +1286,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/practice": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Put Practice
+         * @description Send practice queries of the run's domain. People get them unless the server has a file for this domain.
+         *
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         */
+        put: operations["putPractice"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/webhooks": {
         parameters: {
             query?: never;
@@ -3094,6 +3116,24 @@ export interface components {
             };
         };
         /**
+         * Exercise
+         * @description A practice query with its correct answers and a reason for each label.
+         */
+        Exercise: {
+            /** Ask */
+            ask: components["schemas"]["AskHierDemoInput"] | components["schemas"]["AskInspectFullInput"] | components["schemas"]["AskLabelHiInput"] | components["schemas"]["AskInspectLoInput"] | components["schemas"]["AskLabelLoInput"] | components["schemas"]["AskLabelFullInput"];
+            /**
+             * Known
+             * @description The correct answers.
+             */
+            known: components["schemas"]["KnownVerdict"] | components["schemas"]["KnownSubgoals"] | components["schemas"]["KnownSegment"] | components["schemas"]["KnownActions"];
+            /**
+             * Reasons
+             * @description For each label, why the correct labels are correct.
+             */
+            reasons: ("accomplished" | "not_accomplished" | "shortest" | "no_way")[];
+        };
+        /**
          * Feedback
          * @description The server's reply to a practice answer: each label compared with the correct ones.
          */
@@ -4128,6 +4168,19 @@ export interface components {
         PracticeAnswer: {
             /** Answer */
             answer: components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+        };
+        /**
+         * PracticePut
+         * @description Practice queries of a run's domain, sent by its learner. Their pictures are uploaded before.
+         */
+        PracticePut: {
+            /** Exercises */
+            exercises: components["schemas"]["Exercise"][];
+            /**
+             * Demonstrations
+             * @description At most one for each way in which demonstrations are asked for.
+             */
+            demonstrations: components["schemas"]["WorkedDemonstrationInput"][];
         };
         /**
          * PracticeQuery
@@ -5687,6 +5740,15 @@ export interface components {
              */
             timestamp: string;
             data: components["schemas"]["RunNews"];
+        };
+        /**
+         * WorkedDemonstration
+         * @description A demonstration as a worked example, sent by the server. To practice one, a learner's environment is needed.
+         */
+        WorkedDemonstrationInput: {
+            ask: components["schemas"]["AskHierDemoInput"];
+            /** @description A good demonstration, with the states that were seen. The episode ends with it, unless it plays on where the learner failed. */
+            answer: components["schemas"]["HierDemoAnswerInput"];
         };
         /**
          * WorkedDemonstration
@@ -10833,6 +10895,93 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["Feedback"];
                 };
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    putPractice: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PracticePut"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description Log in first */
             401: {

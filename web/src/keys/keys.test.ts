@@ -77,6 +77,19 @@ describe('the registry', () => {
     expect(keysOf(bindings, 'choose:10')).toEqual([]); // no digit left: by mouse
   });
 
+  it.each(['label_lo', 'label_full', 'hier_demo', 'flat_demo'] as const)(
+    'gives an action with a direction its arrow, whatever the domain calls it, in %s',
+    (mode) => {
+      const corridor = { ...maze, subgoals: ['west', 'east', 'target'], actions: ['west', 'east'] };
+      const compass = { ...maze, subgoals: [], actions: ['North', 'south', 'up'] };
+      const verb = mode.startsWith('label') ? 'choose' : 'act';
+      const first = (vocabulary: Vocabulary) =>
+        vocabulary.actions.map((_, index) => keysOf(bindingsFor(mode, vocabulary), `${verb}:${index}`)?.[0]);
+      expect(first(corridor)).toEqual(['ArrowLeft', 'ArrowRight']);
+      expect(first(compass)).toEqual(['ArrowUp', 'ArrowDown', 'p']); // u is undo
+    },
+  );
+
   it('lets arrows set actions where there are such actions, and step elsewhere', () => {
     expect(keysOf(bindingsFor('label_lo', maze), 'choose:2')).toEqual(['ArrowLeft', '3']);
     expect(keysOf(bindingsFor('label_lo', maze), 'back')).toEqual([',']);

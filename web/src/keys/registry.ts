@@ -317,9 +317,13 @@ function answerBindings(mode: Mode): readonly Binding[] {
 
 const ARROWS: Readonly<Record<string, string>> = {
   up: 'ArrowUp',
+  north: 'ArrowUp',
   down: 'ArrowDown',
+  south: 'ArrowDown',
   left: 'ArrowLeft',
+  west: 'ArrowLeft',
   right: 'ArrowRight',
+  east: 'ArrowRight',
 };
 /** The usual keys of a game. They work in demonstrations; elsewhere, the player uses them. */
 const GAME_KEYS: Readonly<Record<string, string>> = {

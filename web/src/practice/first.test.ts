@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
 import { beforeEach, expect, test } from 'vitest';
 import type { Kind, Me, Outlook, Practice } from '../api/types';
-import { domainToPractice, firstDemonstrations, firstQueries, isNew, remember } from './first';
+import { domainsToPractice, firstDemonstrations, firstQueries, isNew, remember } from './first';
 import { formOf } from './worked';
 
 const me = (more: Partial<Me>): Me => ({ id: 7, role: 'annotator', answers: 0, ...more }) as Me;
@@ -43,11 +43,21 @@ test('one of each kind that is asked is practiced, and none that is a worked exa
   expect(ids(firstQueries(practice, outlook()))).toEqual([0, 2, 4]);
 });
 
-test('what is practiced is the domain of a learner at work, if it has practice', () => {
-  const run = (domain: string, doing = 'asking'): object => ({ domain, doing, kinds: [] });
-  expect(domainToPractice(practice, outlook(run('other'), run('taxi'), run('maze')))).toBe('taxi');
-  expect(domainToPractice(practice, outlook(run('taxi', 'finished'), run('maze')))).toBe('maze');
-  expect(domainToPractice(practice, outlook(run('other')))).toBeNull();
+test('what is practiced are the domains of learners at work that have practice', () => {
+  const run = (domain: string, doing = 'asking'): object => ({
+    run: `of ${domain}`,
+    domain,
+    doing,
+    kinds: [],
+  });
+  const found = (run: string | null, ...runs: object[]) => domainsToPractice(practice, outlook(...runs), run);
+  expect(found(null, run('other'), run('taxi'), run('maze'), run('taxi'))).toEqual(['taxi', 'maze']);
+  expect(found(null, run('taxi', 'finished'), run('maze'))).toEqual(['maze']);
+  expect(found(null, run('other'))).toEqual([]);
+  expect(found(null, run('other', 'finished'))).toEqual(['maze', 'taxi']);
+  expect(found('of other', run('other'), run('taxi'))).toEqual([]);
+  expect(found('of taxi', run('maze'), run('taxi'))).toEqual(['taxi']);
+  expect(found('of long ago', run('maze'), run('taxi'))).toEqual(['maze', 'taxi']);
 });
 
 test('nothing is practiced for a domain of which the person gets no queries', () => {

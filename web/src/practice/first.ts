@@ -19,10 +19,16 @@ export function remember(me: Me, storage: Storage): void {
   }
 }
 
-/** Return the domain to practice: the first that has practice of those whose learners are at work, if there is one. */
-export function domainToPractice({ domains }: Practice, outlook: Outlook): string | null {
-  const live = outlook.runs.filter((run) => run.doing !== 'finished');
-  return live.map((run) => run.domain).find((domain) => domains.includes(domain)) ?? null;
+/**
+ * Return the domains to practice, of those that have practice: those whose learners are at work, in their order, or all
+ * if no learner is. To somebody who works on one run, only its learner counts. Other domains would teach nothing of use.
+ */
+export function domainsToPractice({ domains }: Practice, outlook: Outlook, run: string | null): string[] {
+  const live = outlook.runs.filter((one) => one.doing !== 'finished');
+  const mine = live.filter((one) => one.run === run);
+  const asking = (mine.length > 0 ? mine : live).map((one) => one.domain);
+  if (asking.length === 0) return [...domains];
+  return [...new Set(asking)].filter((domain) => domains.includes(domain));
 }
 
 /**

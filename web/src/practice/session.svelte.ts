@@ -1,10 +1,10 @@
 // A practice session: one query after the other, each with feedback. Nothing is stored.
 import { api, unwrap, wordsOf } from '../api/client';
 import type { Answer, Answerable, AnswerableKind, Feedback, Practice, Vocabulary } from '../api/types';
-import { domainToPractice, firstDemonstrations, firstQueries } from './first';
+import { domainsToPractice, firstDemonstrations, firstQueries } from './first';
 import type { Worked } from './worked';
 
-/** `useless`: the first practice has nothing that the person will be asked. */
+/** `useless`: there is no practice of what the person will be asked. */
 export type Phase =
   'loading' | 'intro' | 'example' | 'question' | 'feedback' | 'demonstration' | 'done' | 'failed' | 'useless';
 
@@ -35,21 +35,31 @@ export class PracticeSession {
   readonly right = $derived(this.results.filter(Boolean).length);
   readonly query: PracticeQuery | null = $derived(this.#queries()[this.place] ?? null);
   readonly vocabulary: Vocabulary | null = $derived(this.#practice?.vocabulary ?? null);
-  readonly domains: readonly string[] = $derived(this.#practice?.domains ?? []);
+  domains: readonly string[] = $state.raw([]); // to choose from
+  readonly #run: string | null;
 
-  /** A session of all practice queries, or the first one of a person, with worked examples. */
-  constructor(isFirst: boolean) {
+  /**
+   * A session of all practice queries, or the first one of a person, with worked examples. If the person works on one
+   * run, it is about the domain of that run.
+   */
+  constructor(isFirst: boolean, run: string | null) {
     this.#isFirst = isFirst;
+    this.#run = run;
   }
 
-  /** Load the practice of a domain; by default, of one whose learner is at work. */
+  /** Load the practice of a domain; by default, of the first that the person may be asked about. */
   async load(domain?: string): Promise<void> {
     if (this.phase !== 'intro') this.phase = 'loading'; // the choice of the domain stays where it is
     try {
       const outlook = await unwrap(api.GET('/api/v1/outlook'));
       const usual = await practiceOf(domain);
-      const other = domain === undefined ? domainToPractice(usual, outlook) : null;
-      const practice = other === null || other === usual.vocabulary.domain ? usual : await practiceOf(other);
+      this.domains = domainsToPractice(usual, outlook, this.#run);
+      const chosen = domain ?? this.domains[0];
+      if (chosen === undefined) {
+        this.phase = 'useless';
+        return;
+      }
+      const practice = chosen === usual.vocabulary.domain ? usual : await practiceOf(chosen);
       this.#examples = this.#isFirst ? workedExamples(practice) : [];
       this.demonstrations = this.#isFirst ? firstDemonstrations(practice, outlook) : [];
       const queries = this.#isFirst ? firstQueries(practice, outlook) : practice.queries;

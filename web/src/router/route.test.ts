@@ -25,11 +25,11 @@ it.each([
   ['/people/audit/1', '', { view: 'nowhere' }],
   ['/people/0x1', '', { view: 'nowhere' }],
   ['/me', '', { view: 'me' }],
-  ['/practice', '', { view: 'practice', first: false, work: '/work' }],
+  ['/practice', '', { view: 'practice', first: false, run: null, work: '/work' }],
   [
     '/practice',
     '?first=yes&without=label_lo',
-    { view: 'practice', first: true, work: '/work?without=label_lo' },
+    { view: 'practice', first: true, run: null, work: '/work?without=label_lo' },
   ],
   ['/else', '', { view: 'nowhere' }],
 ])('%s%s leads somewhere', (path, search, route) => {

@@ -21,6 +21,7 @@ export interface WorkRoute {
 export interface PracticeRoute {
   readonly view: 'practice';
   readonly first: boolean;
+  readonly run: string | null; // the only one of that work view; null for all
   readonly work: string; // the address of that work view
 }
 
@@ -53,8 +54,9 @@ export function parseRoute(path: string, search: string): Route {
 }
 
 function practiceRoute(search: string): PracticeRoute {
-  const isFirst = new URLSearchParams(search).has('first');
-  return { view: 'practice', first: isFirst, work: `/work${searchWith(search, { first: null })}` };
+  const parameters = new URLSearchParams(search);
+  const work = `/work${searchWith(search, { first: null })}`;
+  return { view: 'practice', first: parameters.has('first'), run: parameters.get('run'), work };
 }
 
 function runsRoute(run: string, section = '', query = '', ...more: string[]): RunsRoute | null {

@@ -1,5 +1,6 @@
 // The forecast of a run in words, and as a part of its chart.
 import type { Forecast, ForecastRange, Run } from '../../api/types';
+import { inOurWords } from '../../api/wordings';
 import type { Goal } from '../../charts/chart';
 import { t } from '../../language/language';
 import { count, number, percent, seconds, units } from '../../ui/format';
@@ -23,7 +24,7 @@ export function sentencesOf(forecast: Forecast, run: Run, tests: number): string
   }
   const ended = run.state === 'finished' ? [...endedBefore(target, tests), t('If it had gone on:')] : [];
   if (too_early !== null)
-    return [...ended, t(`Too early to say when ${target} of tests succeed. ${too_early}`)];
+    return [...ended, t(`Too early to say when ${target} of tests succeed. ${inOurWords(too_early)}`)];
   if (more_units === null) return ended;
   return [
     ...ended,
