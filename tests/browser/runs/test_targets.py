@@ -27,7 +27,9 @@ def test_a_finished_run_says_why_it_reached_no_level(open_page: Open, learner: L
     assert "not yet" not in levels
     assert "needs 100 tests, has 60" in levels
     forecast = page.get_by_role("region", name="Forecast")
-    expect(forecast).to_contain_text("The run ended with 60 tests. A level of success counts as reached from the 100th test on.")
+    expect(forecast).to_contain_text(
+        "The run ended with 60 tests. A level of success counts as reached from the 100th test on."
+    )
     expect(forecast).not_to_contain_text("ended before")
 
 
