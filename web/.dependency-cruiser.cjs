@@ -3,7 +3,7 @@
 /** From the bottom to the top. Folders of one layer do not import each other. */
 const LAYERS = [
   ['language'], // the language of the page, and its texts
-  ['api', 'router', 'ui/style'], // the server's REST API and events; addresses; colors, sizes and themes
+  ['api', 'api/wordings', 'router', 'ui/style'], // the server's REST API and events; its standard wordings; addresses; colors, sizes and themes
   ['keys'], // the one list of keys, and what a key press means
   ['ui'], // components and formats of every view; who is signed in
   ['ui/table'], // tables and their pages

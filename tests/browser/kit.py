@@ -268,6 +268,11 @@ def wait_for_heading(page: Page, text: str) -> None:
     expect(heading).to_be_focused()
 
 
+def wait_for_question(page: Page, query: int) -> None:
+    """Wait until a query's question has the focus, in whatever language it is."""
+    page.locator(f"#question[data-query='{query}']:focus").wait_for()
+
+
 def begun_run(
     learner: Learner, open_page: Callable[..., Page], name: str, budget: float, **opened: Any
 ) -> tuple[str, Page]:
@@ -275,8 +280,8 @@ def begun_run(
     run = learner.create_run(name, budget=budget)
     first, second = learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))
     page = open_page(f"/work?run={run}", role="admin", **opened)
-    page.locator(f"#question[data-query='{first}']:focus").wait_for()  # in any language
+    wait_for_question(page, first)
     page.keyboard.press("f")
-    page.locator(f"#question[data-query='{second}']:focus").wait_for()
+    wait_for_question(page, second)
     learner.report(run, [True, False, True])
     return run, page

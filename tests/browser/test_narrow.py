@@ -5,6 +5,8 @@ from playwright.sync_api import Locator, Page, expect
 from tests.browser.conftest import Open
 from tests.browser.kit import Learner, ask, begun_run, wait_for_heading
 
+from waypost_server.serving import Served
+
 PHONE = {"width": 390, "height": 844}
 KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
 
@@ -104,8 +106,8 @@ def test_curves_of_several_runs_take_most_of_a_phone(open_page: Open, learner: L
     assert drawn["width"] > 0.7 * whole["width"]
 
 
-def test_people_and_practice_fit_a_phone(open_page: Open) -> None:
-    page = open_page("/people", role="admin", size=PHONE)
+def test_people_and_practice_fit_a_phone(open_page: Open, empty: Served) -> None:
+    page = open_page("/people", at=empty, role="admin", size=PHONE)
     person = page.get_by_role("row").nth(1).get_by_role("link")
     person.wait_for()
     assert too_wide(page) == [], "people"

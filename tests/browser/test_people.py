@@ -147,9 +147,7 @@ def test_somebody_new_practices_by_keyboard(open_page: Open, served: Served, lea
     expect(page.get_by_text("0 answers")).to_be_visible()
 
 
-def test_people_practice_in_the_domain_of_a_run_or_choose_another(
-    open_page: Open, built_page: Path, tmp_path: Path
-) -> None:
+def test_people_practice_in_the_domains_of_learners_at_work(open_page: Open, built_page: Path, tmp_path: Path) -> None:
     own, file = json.loads(SHIPPED.read_text()), tmp_path / "taxi.json"
     own["vocabulary"]["domain"] = "taxi"
     file.write_text(json.dumps(own | {"exercises": own["exercises"][:4]}))
@@ -158,6 +156,7 @@ def test_people_practice_in_the_domain_of_a_run_or_choose_another(
         serving.background(Settings(database=database, page=built_page, practice=(SHIPPED, file))) as served,
         closing(Learner(served)) as learner,
     ):
+        learner.create_run("of mazes")
         learner.create_run("of taxis", vocabulary=VOCABULARY | {"domain": "taxi"})
         page = open_page("/practice", at=served)
         expect(page.get_by_role("radio", name="taxi")).to_be_checked()

@@ -19,7 +19,7 @@ from waypost_learner.rollout.simulator import Simulator
 from waypost_server.gold.practice import SHIPPED
 from waypost_server.runs.futures import Future, Futures
 
-WORDINGS = json.loads((ROOT / "web/src/api/wordings.json").read_text())
+WORDINGS = json.loads((ROOT / "web/src/api/wordings/wordings.json").read_text())
 EAST = 1
 
 

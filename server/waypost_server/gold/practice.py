@@ -23,9 +23,7 @@ class PracticeFile(wire.PracticePut):
     """The content of a file of practice queries."""
 
     vocabulary: wire.Vocabulary
-    frames: list[wire.Frame] = Field(
-        default_factory=list
-    )  # of all states, for a domain without a renderer
+    frames: list[wire.Frame] = Field(default_factory=list)  # of all states, for a domain without a renderer
 
 
 class BadPractice(Exception):

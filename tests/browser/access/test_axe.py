@@ -170,8 +170,8 @@ def test_people_and_their_dialogs(open_page: Open) -> None:
     check(page, "me")
 
 
-def test_practice(open_page: Open) -> None:
-    page = open_page("/practice?first=yes")
+def test_practice(open_page: Open, empty: Served) -> None:
+    page = open_page("/practice?first=yes", at=empty)
     page.get_by_text("Worked example").wait_for()
     check(page, "worked example")
     page.goto("/practice")

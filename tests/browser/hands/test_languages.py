@@ -103,8 +103,8 @@ def test_runs_are_german_with_german_numbers_and_dates(open_page: Open, learner:
         check(page)
 
 
-def test_practice_and_people_are_german(open_page: Open) -> None:
-    page = open_page("/practice", role="admin", locale=GERMAN)
+def test_practice_and_people_are_german(open_page: Open, empty: Served) -> None:
+    page = open_page("/practice", at=empty, role="admin", locale=GERMAN)
     page.get_by_role("heading", name="Übung").wait_for()
     check(page)
     page.keyboard.press("Enter")
@@ -153,8 +153,8 @@ def test_why_the_server_refuses_is_german(open_page: Open, learner: Learner, com
     check(page)
 
 
-def test_a_person_chooses_the_language_and_the_browser_remembers_it(open_page: Open) -> None:
-    page = open_page("/me", locale=GERMAN)
+def test_a_person_chooses_the_language_and_the_browser_remembers_it(open_page: Open, empty: Served) -> None:
+    page = open_page("/me", at=empty, locale=GERMAN)
     choice = page.get_by_role("combobox", name="Sprache dieser Seite")
     expect(choice.get_by_role("option")).to_have_text(["wie im Browser: Deutsch", "English", "Deutsch"])
     check(page)

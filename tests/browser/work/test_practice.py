@@ -21,8 +21,8 @@ SIZES = [{"width": 1440, "height": 900}, {"width": 768, "height": 1024}, {"width
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_every_worked_example_has_a_mistake(open_page: Open, size: Json) -> None:
-    page = open_page("/practice?first=yes", size=size, motion="reduce")
+def test_every_worked_example_has_a_mistake(open_page: Open, empty: Served, size: Json) -> None:
+    page = open_page("/practice?first=yes", at=empty, size=size, motion="reduce")
     page.get_by_text("Worked example").wait_for()
     kinds = page.get_by_role("progressbar", name="Questions answered").get_attribute("max")
     for _ in range(int(kinds or 0)):  # those that runs on the server ask
@@ -35,8 +35,8 @@ def test_every_worked_example_has_a_mistake(open_page: Open, size: Json) -> None
         page.keyboard.press("Shift+S")
 
 
-def test_on_a_tablet_the_bar_is_in_the_window(open_page: Open) -> None:
-    page = open_page("/practice?first=yes", size=SIZES[1])
+def test_on_a_tablet_the_bar_is_in_the_window(open_page: Open, empty: Served) -> None:
+    page = open_page("/practice?first=yes", at=empty, size=SIZES[1])
     page.get_by_text("Worked example").wait_for()
     expect(page.get_by_role("button", name="Skip the practice")).to_be_in_viewport(ratio=1)
 

@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import Page, expect
 from tests.browser.conftest import WIDE, Open
 from tests.browser.hands.pointer import Finger, Mouse
-from tests.browser.kit import Json, Learner, ask, wait_for_heading
+from tests.browser.kit import Json, Learner, ask, wait_for_heading, wait_for_question
 
 FIRST, SECOND = ask("inspect_full"), ask("label_hi", ordinal=1)
 PHONE = {"width": 390, "height": 844}
@@ -30,11 +30,11 @@ COVERED = """() => {
 
 def answered(learner: Learner, page: Page, run: str) -> int:
     """Answer the first of two questions of a run with the keyboard; return its number."""
-    [first, _] = learner.ask(run, FIRST, SECOND)
+    first, second = learner.ask(run, FIRST, SECOND)
     page.goto(f"/work?run={run}")
-    wait_for_heading(page, FIRST["question"])
+    wait_for_question(page, first)
     page.keyboard.press("f")
-    wait_for_heading(page, SECOND["question"])  # the toast has not taken the focus
+    wait_for_question(page, second)  # the toast has not taken the focus
     page.locator(".toast").wait_for()
     return first
 

@@ -1,6 +1,6 @@
 // The forecast of a run in words, and as a part of its chart.
 import type { Forecast, ForecastRange, Run } from '../../api/types';
-import { inOurWords } from '../../api/wordings';
+import { inOurWords } from '../../api/wordings/wordings';
 import type { Goal } from '../../charts/chart';
 import { t } from '../../language/language';
 import { count, number, percent, seconds, units } from '../../ui/format';

@@ -1,5 +1,5 @@
 // The standard wordings of learners and of the server, which the page says in its own language.
-import { t } from '../language/language';
+import { t } from '../../language/language';
 import WORDINGS from './wordings.json';
 
 type Name = keyof typeof WORDINGS;
