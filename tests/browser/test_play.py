@@ -242,7 +242,7 @@ def test_a_click_in_a_box_of_the_picture_chooses_the_next_subgoal(
     stage(learner.served, query, CORRIDOR)
     page = open_page(f"/work?run={run}", motion="reduce")
     page.locator("[data-stage=here]").wait_for()
-    for subgoal, keys in (("east", ["a", "Enter"]), ("target", ["a", "a"])):
+    for subgoal, keys in (("east", ["ArrowRight", "Enter"]), ("target", ["ArrowRight", "ArrowRight"])):
         page.get_by_role("button", name=f"Choose the subgoal {subgoal}").click()
         press(page, *keys)
     send(page)
@@ -251,7 +251,7 @@ def test_a_click_in_a_box_of_the_picture_chooses_the_next_subgoal(
 
 
 @pytest.mark.parametrize("flat", [False, True])
-def test_a_domain_without_a_renderer_is_played_with_letters(
+def test_a_domain_without_a_renderer_is_played_with_keys(
     open_page: Open, learner: Learner, stage: Stage, flat: bool
 ) -> None:
     run = learner.create_run("corridor", vocabulary=vocabulary(CorridorDomain()).model_dump())
@@ -261,11 +261,12 @@ def test_a_domain_without_a_renderer_is_played_with_letters(
     page = open_page(f"/work?run={run}")
     page.locator("[data-stage=here]").wait_for()
     expect(page.get_by_text("the end", exact=True)).to_have_count(0)
-    # The subgoals west and east have their initials in every query, so the actions of these names have other letters.
-    press(page, *(["s", "a", "2", "1"] if flat else ["2", "a", "Enter", "t", "a", "a"]))
+    # The subgoals west and east have letters, so the actions of these names have the arrows of their directions.
+    left, right = "ArrowLeft", "ArrowRight"
+    press(page, *([left, right, "2", "1"] if flat else ["2", right, "Enter", "t", right, right]))
     if flat:
         expect(steps(page)).to_have_text("4")
-        press(page, "Backspace", "2", "a")
+        press(page, "Backspace", "2", right)
     send(page)
     answer = learner.answer_of(query)
     actions = [segment["actions"] for segment in answer["segments"]]

@@ -114,7 +114,7 @@ def test_pictures_show_what_the_learner_did_and_the_steps_that_are_played_on(
     expect(page.get_by_role("img", name="The state, step 0 of 5")).to_be_visible()
     page.keyboard.press("End")
     page.get_by_role("button", name="Choose the subgoal east").click()
-    press(page, "a", "a", "a")
+    press(page, *["ArrowRight"] * 3)
     expect(page.get_by_role("img", name="The state, step 8 of 8")).to_be_visible()
     press(page, "Enter", "Enter")
     answer = learner.answer_of(query)

@@ -33,10 +33,12 @@ def test_a_demonstration_is_played_with_a_thumb(open_page: Open, learner: Learne
     stage(learner.served, query)
     page = open_page(f"/work?run={run}", size=size, touch=True)
     is_here(page)
-    assert box_of(page)["width"] >= 240
+    box = box_of(page)
+    assert box["width"] >= 240
     for number, (segment, (_, steps)) in enumerate(zip(SEGMENTS, WAY, strict=True)):
         tap(page, str(segment["subgoal"]).replace("_", " "))
         for step in steps:
+            assert box_of(page) == box  # or else a finger on the map would lead the agent astray
             tap(page, MOVES[step])
         if number + 1 < len(WAY):
             tap(page, "Reached")
