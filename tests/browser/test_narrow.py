@@ -141,7 +141,7 @@ def test_on_a_tablet_the_map_is_large_and_the_player_below_it(open_page: Open, l
     assert picture["y"] + picture["height"] <= player["y"]
     assert player["y"] + player["height"] <= 640
     page.keyboard.press("?")
-    expect(page.get_by_role("dialog", name="Keys")).to_contain_text("the ring is the target")
+    expect(page.get_by_role("dialog", name="Keys")).to_contain_text("the ring with a dot is the target")
 
 
 def test_on_a_tablet_many_labels_do_not_cover_what_is_below_them(open_page: Open, learner: Learner) -> None:
