@@ -13,6 +13,7 @@ from rich.console import Console
 
 from waypost import tracing
 from waypost.wire import Assignment, Receipt, RunPatch
+from waypost_learner import domain_commands
 from waypost_learner.commands import (
     JsonOption,
     PatienceOption,
@@ -25,7 +26,7 @@ from waypost_learner.commands import (
 )
 from waypost_learner.exchange import cli as exchange_cli
 from waypost_learner.experiments import cli as experiments_cli
-from waypost_learner.progress import BuildingProgress, TrainingProgress
+from waypost_learner.progress import TrainingProgress
 from waypost_server.cli.main import app as server_app
 
 app = typer.Typer(
@@ -37,8 +38,7 @@ app = typer.Typer(
 app.add_typer(server_app)
 app.add_typer(experiments_cli.app)
 app.add_typer(exchange_cli.app)
-domain_app = typer.Typer(no_args_is_help=True, help="Domains: the installed ones, and checks of your own.")
-app.add_typer(domain_app, name="domain")
+app.add_typer(domain_commands.app, name="domain")
 
 StoreOption = Annotated[
     Path | None, typer.Option("--store", help="The SQLite file; it is created if it does not exist.")
@@ -303,54 +303,6 @@ def practice(
         found = made(find_domain(domain), instances, seed)
     file.write_text(found, encoding="utf-8")
     typer.echo(f"The practice queries are in {file}.")
-
-
-@domain_app.command("list")
-def list_domains() -> None:
-    """List the installed domains."""
-    with learner_errors():
-        from waypost.domains import installed
-
-        for name in installed():
-            typer.echo(name)
-
-
-@domain_app.command("check")
-def check_domain(
-    name: Annotated[str, typer.Argument(help="The domain's name, or MODULE:ATTRIBUTE if it is not installed.")],
-    as_json: JsonOption = False,
-) -> None:
-    """Check that a domain keeps the contract, and explain what fails. The exit status is 1 if something fails."""
-    with learner_errors():
-        from waypost.domains.conformance import check_domain as check
-
-        results = check(name)
-    if as_json:
-        typer.echo(json.dumps([vars(result) for result in results]))
-    else:
-        for result in results:
-            typer.echo(f"{'FAILS' if result.failures else 'ok   '}  {result.check}")
-            for failure in result.failures:
-                typer.echo(f"       {failure}")
-    if results[-1].failures:
-        raise typer.Exit(1)
-
-
-@domain_app.command("build")
-def build_domain(
-    name: Annotated[str, typer.Argument(help="The domain's name, or MODULE:ATTRIBUTE if it is not installed.")],
-    file: Annotated[Path, typer.Argument(help="The file to write.")],
-) -> None:
-    """Compute the data that a domain's oracle looks up. An interrupted command continues when it is given again."""
-    with learner_errors("Interrupted. The same command continues where it stopped."):
-        from waypost.domains import Computed, find_domain
-
-        domain = find_domain(name)
-        if not isinstance(domain, Computed):
-            refuse(f"The domain {domain.name!r} has no data to compute.")
-        with BuildingProgress() as progress:
-            domain.build(file, progress.show)
-    typer.echo(f"The data is in {file}.")
 
 
 def main() -> None:

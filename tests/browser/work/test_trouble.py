@@ -7,9 +7,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Route, expect
 from tests.browser.conftest import Open
-from tests.browser.kit import Complaints, Learner, ask, log_in, login_link, wait_for_heading
+from tests.browser.kit import Complaints, Learner, ask, log_in, wait_for_heading
 
-from waypost import wire
 from waypost_server import serving
 from waypost_server.settings import Settings
 
@@ -347,36 +346,6 @@ def test_a_server_that_restarts_while_one_answers_loses_nothing(
         assert learner.call("GET", f"/runs/{run}/costs")["total"] == 4
         page.goto("/login")
         learner.close()
-
-
-def test_a_login_link_opens_once(open_page: Open, served: serving.Served, complaints: Complaints) -> None:
-    complaints.expect("401")
-    link = login_link(served, "one-time", "viewer")
-    page = open_page(link, role=None)
-    page.get_by_role("heading", name="Runs").wait_for()
-    assert "#" not in page.url
-    used = open_page(link, role=None)
-    expect(used.get_by_role("heading", name="This login link was used before")).to_be_visible()
-    assert "#" not in used.url
-    signed_out = open_page("/work", role=None)
-    expect(signed_out.get_by_role("heading", name="You are not signed in")).to_be_visible()
-
-
-def test_a_login_link_can_lead_to_a_run(open_page: Open, learner: Learner, served: serving.Served) -> None:
-    run = learner.create_run("led here")
-    learner.ask(run, ask("inspect_full", question="The question of this run"))
-
-    def link(role: wire.Role) -> str:
-        return login_link(served, f"led {role}", role).replace("/login#", f"/login?run={run}#")
-
-    page = open_page(link("viewer"), role=None)
-    expect(page.get_by_role("heading", name="led here")).to_be_visible()
-    page = open_page(link("annotator"), role=None)
-    page.get_by_text("Worked example").wait_for()  # somebody new practices first
-    page.keyboard.press("Escape")
-    wait_for_heading(page, "The question of this run")
-    page.goto(link("annotator"))
-    expect(page.get_by_role("heading", name="led here")).to_be_visible()
 
 
 def test_a_viewer_is_told_why_there_is_no_work(open_page: Open, complaints: Complaints) -> None:
