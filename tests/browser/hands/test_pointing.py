@@ -122,6 +122,14 @@ def test_the_right_way_is_drawn_through_several_segments(learner: Learner, open_
     assert learner.answer_of(query)["actions"] == [*["up"] * 4, "left", *["up"] * 4, *["right"] * 4]
 
 
+def test_a_click_beside_the_agent_labels_nothing(learner: Learner, open_with: OpenWith) -> None:
+    _, page, hand = begin(learner, open_with, ask("label_lo"))
+    expect(page.get_by_text("0 of 7")).to_be_visible()
+    hand.click((9, 1))  # where the agent came from
+    shows(page, "step 6 of 13, action up, subgoal north")
+    expect(page.get_by_text("0 of 7")).to_be_visible()
+
+
 def test_a_way_that_is_drawn_while_the_next_question_comes_labels_neither(learner: Learner, open_page: Open) -> None:
     run = learner.create_run("pointing")
     asked = ask("label_lo")

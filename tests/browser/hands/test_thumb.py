@@ -1,7 +1,7 @@
 """On a phone, the buttons that play a demonstration are under the thumb: nobody scrolls to make a move."""
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, WebSocketRoute, expect
 from tests.browser import test_takeover
 from tests.browser.conftest import WIDE, Open, Stage
 from tests.browser.hands.pointer import Finger, Mouse, box_of
@@ -76,6 +76,38 @@ def test_a_demonstration_is_played_on_the_map(
             on.press("Reached")
     send(page)
     assert learner.answer_of(query)["segments"] == SEGMENTS
+
+
+def test_the_agent_is_led_further_than_the_environment_has_answered(
+    open_page: Open, learner: Learner, stage: Stage
+) -> None:
+    run = learner.create_run("slow environment")
+    [query] = learner.ask(run, ask())
+    stage(learner.served, query)
+    page = open_page("/practice")
+    held: list[tuple[WebSocketRoute, str | bytes]] = []
+    holds = False
+
+    def slow(page_side: WebSocketRoute) -> None:
+        server = page_side.connect_to_server()
+        page_side.on_message(server.send)
+        server.on_message(lambda news: held.append((page_side, news)) if holds else page_side.send(news))
+
+    page.route_web_socket("**/play**", slow)
+    page.goto(f"/work?run={run}")
+    is_here(page)
+    hand = Mouse(page)
+    hand.press("north")
+    holds = True
+    hand.draw(START, (START[0] - 3, START[1]))
+    expect(page.get_by_role("list", name="Segments played")).to_contain_text("3 steps")
+    holds = False
+    for page_side, news in held:
+        page_side.send(news)
+    hand.press("Reached")
+    hand.press("Send")
+    page.get_by_role("button", name="Send it anyway").click()
+    assert learner.answer_of(query)["segments"] == [{"subgoal": "north", "actions": ["up"] * 3}]
 
 
 def test_buttons_show_no_keys_where_there_is_no_keyboard(open_page: Open, learner: Learner) -> None:

@@ -83,6 +83,13 @@ export function countActions(parts: readonly Part[]): number {
   return parts.reduce((sum, part) => sum + part.actions.length, 0);
 }
 
+/** Return the actions whose states are not known yet. */
+export function pendingOf(demonstration: Demonstration): string[] {
+  return partsOf(demonstration)
+    .flatMap((part) => part.actions)
+    .slice(demonstration.states.length - 1);
+}
+
 /** Return whether there are all the segments that the query allows, and the last one is reached. */
 export function isComplete(demonstration: Demonstration, ask: Ask): boolean {
   const parts = partsOf(demonstration);

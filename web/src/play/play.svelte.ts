@@ -253,7 +253,14 @@ export class Play {
     const mayAct = !this.over && !this.looksBack && (this.ask.flat || this.current !== null);
     const act = (name: string): void => this.run(`act:${actions.indexOf(name)}`);
     const show = this.playsOn ? (frame: number): void => this.seek(frame) : null;
-    return { show, pick: show, choose: mayChoose ? choose : null, act: mayAct ? act : null, labeling: null };
+    return {
+      show,
+      pick: show,
+      choose: mayChoose ? choose : null,
+      act: mayAct ? act : null,
+      pending: demos.pendingOf(this.demonstration),
+      labeling: null,
+    };
   }
 
   #scene(): Scene {

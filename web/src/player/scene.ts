@@ -33,6 +33,8 @@ export interface Pointing {
    * action is asked for in this state.
    */
   readonly act: ((action: string) => void) | null;
+  /** Actions of a demonstration whose states are not known yet: the agent is further than the picture shows it. */
+  readonly pending: readonly string[];
   /** Null if the query asks for no labels. */
   readonly labeling: Labeling | null;
 }

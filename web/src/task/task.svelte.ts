@@ -131,6 +131,7 @@ export class Task {
       pick: (frame) => this.pick(frame),
       choose: of === 'subgoals' ? (name) => this.run(`choose:${subgoals.indexOf(name)}`) : null,
       act: this.#asksForAction ? act : null,
+      pending: [],
       labeling: of && { of, draw: (choices, end) => this.#draw(choices, end) },
     };
   }
