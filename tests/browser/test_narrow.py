@@ -14,7 +14,9 @@ KINDS = ("inspect_full", "label_hi", "inspect_lo", "label_lo", "label_full")
 def too_wide(page: Page) -> list[str]:
     """What reaches beyond the right edge of the window and cannot be scrolled to in a part of its own."""
     return list(
-        page.evaluate("""() => {
+        page.evaluate("""async () => {
+          const frame = () => new Promise(requestAnimationFrame)
+          await frame().then(frame) // a picture measures its place after the window has its size
           if (document.documentElement.scrollWidth <= innerWidth) return []
           const scrolls = (one) => one !== null && one !== document.body &&
             (['auto', 'scroll', 'hidden'].includes(getComputedStyle(one).overflowX) || scrolls(one.parentElement))
