@@ -15,6 +15,7 @@ from pydantic import BaseModel
 from websockets.sync.client import ClientConnection, connect
 
 from waypost import wire
+from waypost.wire.review import MOST_PREDICTIONS
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -167,6 +168,15 @@ class Client:
     def put_practice(self, run: str, practice: wire.PracticePut) -> None:
         """Send practice queries of the run's domain. Their pictures were uploaded before."""
         self._send("PUT", f"/runs/{run}/practice", practice)
+
+    def put_predictions(self, run: str, episode: int, predictions: Sequence[wire.Prediction]) -> None:
+        """Send what the policies that learned from `episode` last would answer to queries whose answers were used.
+
+        Whoever reviews the run sees where an answer differs from it. It replaces what was sent before.
+        """
+        for start in range(0, len(predictions), MOST_PREDICTIONS):
+            part = list(predictions[start : start + MOST_PREDICTIONS])
+            self._send("PUT", f"/runs/{run}/predictions", wire.Predictions(episode=episode, predictions=part))
 
     def costs(self, run: str) -> wire.Costs:
         """Return the sums of the ledger."""

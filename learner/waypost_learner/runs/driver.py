@@ -49,12 +49,14 @@ class Hooks:
 
     Args:
         let_answer: called when queries may be open; an expert in this process then answers them.
+        on_answer: called with each query whose answer is used, and its id.
         on_episode: called with each episode's result and the units that its answers cost.
         checkpoint: called with the progress whenever the run can be resumed from this point.
         offer: called with each demonstration that is not answered at once, so that people can play it.
     """
 
     let_answer: Callable[[], None] = lambda: None
+    on_answer: Callable[[int, Query], None] = lambda _id, _query: None
     on_episode: Callable[[wire.EpisodeResult, float], None] = lambda _result, _units: None
     checkpoint: Callable[[Progress], None] = lambda _progress: None
     offer: Offer = lambda _query, _translator: lambda: None
@@ -72,7 +74,8 @@ class OpenEpisode:
     reward: float = 0.0  # of the learner's rollout
     passed: bool | None = None  # whether what is monitored was right; None if no answer said
     ordinal: int = 0  # of the next query
-    pending: int | None = None  # the query whose answer it waits for
+    asked: Query | None = None  # the query that was asked last
+    pending: int | None = None  # its id, while its answer is not used
     units: float = 0  # the cost of its answers
     labels: Labels | None = None  # its labels, once it has ended
     withdraw: Withdraw = lambda: None  # withdraws the offer of its environment
@@ -192,10 +195,10 @@ class Driver:
     def _ask(self, episode: OpenEpisode, query: Query | None) -> None:
         """Ask an episode's query. While the answer is available immediately, ask the next query."""
         while query is not None:
-            episode.pending = self._put(episode, query)
+            episode.asked, episode.pending = query, self._put(episode, query)
             self._hooks.let_answer()
-            asked, query = query, self._advance(episode)
-            if episode.pending is not None and isinstance(asked, HierDemo):
+            query = self._advance(episode)
+            if episode.pending is not None and isinstance(episode.asked, HierDemo):
                 episode.withdraw = self._hooks.offer(episode.pending, episode.translator)
 
     def _put(self, episode: OpenEpisode, query: Query) -> int:
@@ -217,10 +220,12 @@ class Driver:
     def _advance(self, episode: OpenEpisode) -> Query | None:
         """Use the pending answer and return the next query; None if there is no answer yet or no further query."""
         assert episode.pending is not None
+        assert episode.asked is not None
         used = self._queue.use(episode.pending)
         if used is None:
             return None
         assert used.answer is not None
+        self._hooks.on_answer(episode.pending, episode.asked)
         episode.withdraw()
         episode.pending, episode.withdraw = None, lambda: None
         episode.units += used.units or 0

@@ -21,6 +21,7 @@ from waypost_learner.runs.config import NOT_PROVIDED, START, Progress, TrainConf
 from waypost_learner.runs.driver import Driver, Hooks, Offer
 from waypost_learner.runs.measuring import Measuring
 from waypost_learner.runs.practice import send_practice
+from waypost_learner.runs.predicting import Predicting
 from waypost_learner.runs.run_queue import RunQueue
 from waypost_learner.runs.setup import Setup, set_up
 from waypost_learner.runs.summary import finish
@@ -88,6 +89,9 @@ def train(
             learner, measured, file, first.episodes, lambda: costs(run.id).total, options.measure_every
         )
 
+    people = connection.annotator is None  # who may review the run
+    predicting = Predicting(learner, connection.learner, run.id) if people else None
+
     def save(progress: Progress, weights_only: bool) -> None:
         checkpoints.write(path, learner, checkpoints.Header(run.id, config, progress), weights_only)
 
@@ -97,10 +101,13 @@ def train(
             tracker.episode(result, units)
             if measuring is not None:
                 measuring.after(result.episode)
+            if predicting is not None:
+                predicting.after(result.episode)
             on_episode(result, units)
 
         hooks = Hooks(
             let_answer=_expert_here(connection, run.id, learner.domain),
+            on_answer=predicting.keep if predicting is not None else lambda _id, _query: None,
             on_episode=report,
             checkpoint=partial(save, weights_only=False),
             offer=_offer_to_people(connection),
@@ -109,6 +116,8 @@ def train(
         learner.train_idle()  # the training that would follow the next query
         if measuring is not None:
             measuring.now(progress.episodes)
+        if predicting is not None and progress.episodes:
+            predicting.now(progress.episodes - 1)
         save(progress, weights_only=True)
         summary = finish(setup, connection.learner, run.id, ended, time.monotonic() - began)
         tracker.finish(summary)

@@ -7,7 +7,40 @@ from waypost.wire.gold import Mark
 from waypost.wire.watching import QueryRow
 from waypost.wire.words import Kind, Message
 
-__all__ = ["Agreement", "AgreementOfKind", "ReviewPage", "ReviewRow", "SecondAnswer"]
+__all__ = [
+    "Agreement",
+    "AgreementOfKind",
+    "Predicted",
+    "Prediction",
+    "Predictions",
+    "ReviewPage",
+    "ReviewRow",
+    "SecondAnswer",
+]
+
+MOST_PREDICTIONS = 100  # in one request
+
+
+class Prediction(Message):
+    """What the current policies would answer to a query whose answer the learner has used, sent by the learner."""
+
+    query: int = Field(ge=0, le=2**53, description="The id of the query.")
+    answer: Answer = Field(description="Of the query's kind, which is one of the kinds that ask for labels.")
+
+
+class Predictions(Message):
+    """What the policies of one moment would answer, sent by the learner."""
+
+    episode: int = Field(ge=0, le=10**9, description="The last episode from which the policies learned.")
+    predictions: list[Prediction] = Field(max_length=MOST_PREDICTIONS, description="At most one per query.")
+
+
+class Predicted(Message):
+    """What the learner's policies would answer to a query, as the learner sent it last; sent by the server."""
+
+    episode: int = Field(description="The last episode from which the policies had learned.")
+    answer: Answer
+    differs: bool = Field(description="Whether it differs from the answer in a label.")
 
 
 class SecondAnswer(Message):
@@ -25,6 +58,9 @@ class ReviewRow(Message):
     query: QueryRow
     differs: bool | None = Field(
         description="Whether the answer differs from the learner's suggestion; null if the query had none."
+    )
+    policy: Predicted | None = Field(
+        description="What the learner's policies would answer now; null if the learner has not sent it."
     )
     gold: list[Mark] | None = Field(
         description="For an answer to a gold query: its labels beside the correct ones; otherwise null."

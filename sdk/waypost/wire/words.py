@@ -34,7 +34,7 @@ DEMO_FORMS: tuple[DemoForm, ...] = get_args(DemoForm)
 Verdict = Literal["pass", "fail"]
 RunState = Literal["running", "paused", "finished"]
 QueryState = Literal["open", "leased", "answered", "cancelled"]
-Disagreement = Literal["suggestion", "gold", "second"]
+Disagreement = Literal["suggestion", "policy", "gold", "second"]
 Role = Literal["admin", "learner", "annotator", "viewer"]
 Scope = Literal["read", "answer", "learn", "manage"]
 

@@ -68,6 +68,7 @@ ACCESS: Mapping[str, Access] = {
     "listGold": _LEARN,
     "putPractice": OWN_RUN,
     # review
+    "putPredictions": OWN_RUN,
     "listReview": OWN_RUN,
     "comment": OWN_RUN,
     "sendBack": OWN_RUN,

@@ -386,6 +386,17 @@ practices = Table(
     Column("content", Text, nullable=False),
 )
 
+# What the policies of a later episode would answer to a query, as the learner sent it. The answer that it used stays.
+predictions = Table(
+    "predictions",
+    metadata,
+    Column("query_id", RowId, ForeignKey("queries.id"), primary_key=True),
+    Column("run_id", Text, ForeignKey("runs.id"), nullable=False, index=True),
+    Column("episode", Integer, nullable=False),
+    Column("content", Text, nullable=False),
+    Column("differs", Boolean, nullable=False),  # from the answer
+)
+
 # One showing of a gold query to one annotator: a query in the run's shadow, and how many labels were right.
 gold_showings = Table(
     "probes",

@@ -26,6 +26,7 @@ from waypost_server.db.tables import (
     gold,
     ledger,
     practices,
+    predictions,
     queries,
     runs,
 )
@@ -57,7 +58,8 @@ def delete(tx: Tx, run: Record, by: Actor = COMMAND_LINE) -> wire.RunDeletion:
     own = _with_shadow(tx, run.id)
     # First, because the triggers of answers, events and comments let go only what belongs to a deleted run.
     tx.conn.execute(update(runs).where(runs.c.id.in_(own)).values(deleted_at=tx.now, **_NAMELESS))
-    tx.conn.execute(practices.delete().where(practices.c.run_id == run.id))
+    for table in (practices, predictions):
+        tx.conn.execute(table.delete().where(table.c.run_id == run.id))
     deleted = _told(tx, run.id, take(tx, _steps(own)), pictures.take(tx, own), dry_run=False)
     sums = {"queries": deleted.queries, "answers": deleted.answers}
     tx.record(Entry(by, "run.deleted", f"run/{run.id}", sums))

@@ -18,6 +18,7 @@ from waypost_server.db.tables import (
     assignments,
     comments,
     gold_showings,
+    predictions,
     queries,
     users,
 )
@@ -90,6 +91,9 @@ def _query_conditions(run: str | None, chosen: QueryFilter) -> list[ColumnElemen
     conditions.extend(_has_word(word) for word in chosen.text.lower().split())
     if chosen.disagrees == "suggestion":
         conditions.append(DIFFERS)
+    if chosen.disagrees == "policy":
+        unlike = select(predictions.c.query_id).where(predictions.c.run_id == run, predictions.c.differs)
+        conditions.append(queries.c.id.in_(unlike))
     if chosen.disagrees == "gold":
         wrong = (gold_showings.c.query_id == queries.c.id, gold_showings.c.n_right < gold_showings.c.n_labels)
         conditions.append(exists().where(*wrong))

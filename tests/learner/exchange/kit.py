@@ -40,7 +40,7 @@ def trained(folder: Path, **values: Any) -> dict[str, Any]:
         return train(corridor(**values), connection, options)
 
 
-class _AnsweredWhenAwaited:
+class AnsweredWhenAwaited:
     """A learner's client; a bot answers when the learner waits, as people would. Queries for people have pictures."""
 
     def __init__(self, connection: Connection) -> None:
@@ -58,5 +58,5 @@ class _AnsweredWhenAwaited:
 def trained_with_pictures(folder: Path, **values: Any) -> dict[str, Any]:
     """The same, with pictures in the queries."""
     with store(folder) as (connection, options):
-        client: Any = _AnsweredWhenAwaited(connection)
+        client: Any = AnsweredWhenAwaited(connection)
         return train(corridor(**values), Connection(client, None), options)

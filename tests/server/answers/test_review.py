@@ -3,12 +3,13 @@
 from typing import Any
 
 import pytest
+from sqlalchemy import select
 from sqlalchemy.exc import DBAPIError
 from tests.server.gold.test_gold import bring, is_gold
 from tests.server.kit import Caller, Json, Service, query, right_answer, together
 
 from waypost_server.db.checking import check
-from waypost_server.db.tables import comments
+from waypost_server.db.tables import comments, predictions
 
 LONG = "x" * 2_000
 
@@ -144,6 +145,56 @@ def test_answers_are_paged_through_by_annotator_kind_and_disagreement(service: S
     assert back["rows"][0]["query"]["id"] == without
     send_back(service, service.learner.get(f"/queries/{other}"))
     assert walk(reviewer, run, disagrees="suggestion") == [lo_other]
+
+
+def predict(service: Service, run: str, *sent: tuple[int, Json], episode: int = 7, expect: int = 204) -> Json:
+    body = {"episode": episode, "predictions": [{"query": query_id, "answer": answer} for query_id, answer in sent]}
+    return service.learner.call("PUT", f"/runs/{run}/predictions", body, expect)
+
+
+def test_answers_are_compared_with_what_the_policies_would_answer_now(service: Service) -> None:
+    run = service.learner.create_run()
+    right, wrong, unknown = (
+        one["id"] for one in answered(service, run, *(query("label_hi", ordinal=n) for n in range(3)))
+    )
+    for one in (right, wrong):
+        service.learner.post(f"/queries/{one}/use")
+    given = service.learner.get(f"/queries/{right}")["answer"]
+    other = {"kind": "label_hi", "subgoals": ["north"]}
+    assert given != other
+    predict(service, run, (right, other), (wrong, other))
+    predict(service, run, (right, given), episode=8)
+    assert walk(service.learner, run, disagrees="policy") == [wrong]
+    rows = service.learner.get(f"/runs/{run}/review")["rows"]
+    assert [one["query"]["id"] for one in rows] == [unknown, wrong, right]
+    assert [one["policy"] for one in rows] == [
+        None,
+        {"episode": 7, "answer": other, "differs": True},
+        {"episode": 8, "answer": given, "differs": False},
+    ]
+    service.learner.patch(run, state="finished")
+    service.learner.call("DELETE", f"/runs/{run}")
+    assert service.db.read_now(lambda tx: tx.conn.execute(select(predictions)).all()) == []
+
+
+def test_a_prediction_must_be_a_label_for_a_query_of_the_run_with_a_used_answer(service: Service) -> None:
+    run, another = service.learner.create_run(), service.learner.create_run()
+    label, unused = (one["id"] for one in answered(service, run, *(query("label_hi", ordinal=n) for n in range(2))))
+    (foreign,) = answered(service, another, query("label_hi"))
+    for one in (label, foreign["id"]):
+        service.learner.post(f"/queries/{one}/use")
+    good: Json = {"kind": "label_hi", "subgoals": ["south"]}
+    for sent in (
+        [(unused, good)],
+        [(foreign["id"], good)],
+        [(label, good), (label, good)],
+        [(label, {"kind": "label_hi", "subgoals": ["nowhere"]})],
+        [(label, {"kind": "inspect_full", "verdict": "pass"})],
+    ):
+        predict(service, run, *sent, expect=422)
+    assert service.learner.get(f"/runs/{run}/review")["rows"][-1]["policy"] is None, "nothing of it is stored"
+    mallory = service.user("mallory", "learner")
+    mallory.call("PUT", f"/runs/{run}/predictions", {"episode": 0, "predictions": []}, 403)
 
 
 def test_wrong_answers_to_gold_queries_are_reviewed_beside_the_right_ones(service: Service) -> None:

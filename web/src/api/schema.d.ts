@@ -1152,6 +1152,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run}/predictions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Put Predictions
+         * @description Send what the policies would answer now to queries whose answers were used. The review compares both.
+         *
+         *     A token with scopes needs the scope learn. Needs the role admin or learner. The run must be the caller's own; administrators may do it for every run.
+         */
+        put: operations["putPredictions"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{run}/agreement": {
         parameters: {
             query?: never;
@@ -4193,6 +4215,56 @@ export interface components {
             ask: components["schemas"]["AskHierDemo"] | components["schemas"]["AskInspectFull"] | components["schemas"]["AskLabelHi"] | components["schemas"]["AskInspectLo"] | components["schemas"]["AskLabelLo"] | components["schemas"]["AskLabelFull"];
         };
         /**
+         * Predicted
+         * @description What the learner's policies would answer to a query, as the learner sent it last; sent by the server.
+         */
+        Predicted: {
+            /**
+             * Episode
+             * @description The last episode from which the policies had learned.
+             */
+            episode: number;
+            /** Answer */
+            answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+            /**
+             * Differs
+             * @description Whether it differs from the answer in a label.
+             */
+            differs: boolean;
+        };
+        /**
+         * Prediction
+         * @description What the current policies would answer to a query whose answer the learner has used, sent by the learner.
+         */
+        Prediction: {
+            /**
+             * Query
+             * @description The id of the query.
+             */
+            query: number;
+            /**
+             * Answer
+             * @description Of the query's kind, which is one of the kinds that ask for labels.
+             */
+            answer: components["schemas"]["HierDemoAnswerInput"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
+        };
+        /**
+         * Predictions
+         * @description What the policies of one moment would answer, sent by the learner.
+         */
+        Predictions: {
+            /**
+             * Episode
+             * @description The last episode from which the policies learned.
+             */
+            episode: number;
+            /**
+             * Predictions
+             * @description At most one per query.
+             */
+            predictions: components["schemas"]["Prediction"][];
+        };
+        /**
          * Price
          * @description The price of an answer, sent by the server: `fixed` + `per_action` x actions + `per_segment` x segments.
          *
@@ -4785,6 +4857,8 @@ export interface components {
              * @description Whether the answer differs from the learner's suggestion; null if the query had none.
              */
             differs: boolean | null;
+            /** @description What the learner's policies would answer now; null if the learner has not sent it. */
+            policy: components["schemas"]["Predicted"] | null;
             /**
              * Gold
              * @description For an answer to a gold query: its labels beside the correct ones; otherwise null.
@@ -10413,8 +10487,8 @@ export interface operations {
             query?: {
                 kind?: ("hier_demo" | "inspect_full" | "label_hi" | "inspect_lo" | "label_lo" | "label_full") | null;
                 annotator?: string | null;
-                /** @description Only answers that differ from the learner's suggestion or from a second answer, or those to gold queries whose first labels were not all correct. Only the last filter finds answers to gold queries. */
-                disagrees?: ("suggestion" | "gold" | "second") | null;
+                /** @description Only answers that differ from the learner's suggestion, from what its policies would answer now, or from a second answer, or those to gold queries whose first labels were not all correct. Only the last filter finds answers to gold queries. */
+                disagrees?: ("suggestion" | "policy" | "gold" | "second") | null;
                 /** @description Only rows older than this one. */
                 before?: number | null;
                 /** @description The oldest rows that are newer than this one. */
@@ -10458,6 +10532,93 @@ export interface operations {
             };
             /** @description Not found */
             404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The request is not valid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The store failed; The store is busy */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    putPredictions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Predictions"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Log in first */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not allowed; Refused from another site */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Not found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Send application/json */
+            415: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.answers.review import agreement
+from waypost_server.answers.review import agreement, predictions
 from waypost_server.answers.review import service as review
 from waypost_server.answers.review.rows import review_page
 from waypost_server.auth.permissions import Allowed
@@ -33,8 +33,9 @@ async def list_review(
     disagrees: Annotated[
         wire.Disagreement | None,
         Query(
-            description="Only answers that differ from the learner's suggestion or from a second answer, or those to "
-            "gold queries whose first labels were not all correct. Only the last filter finds answers to gold queries."
+            description="Only answers that differ from the learner's suggestion, from what its policies would answer "
+            "now, or from a second answer, or those to gold queries whose first labels were not all correct. Only the "
+            "last filter finds answers to gold queries."
         ),
     ] = None,
     before: Before = None,
@@ -50,6 +51,14 @@ async def list_review(
         return review_page(tx, run, chosen, page)
 
     return await context.db.read(read)
+
+
+@router.put(
+    "/runs/{run}/predictions", status_code=204, operation_id="putPredictions", responses=refusals(errors.NotFound)
+)
+async def put_predictions(run: str, body: wire.Predictions, context: Ctx, caller: Allowed) -> None:
+    """Send what the policies would answer now to queries whose answers were used. The review compares both."""
+    await context.db.write(lambda tx: predictions.put(tx, run, body, caller.user))
 
 
 @router.get("/runs/{run}/agreement", operation_id="getAgreement", responses=refusals(errors.NotFound))

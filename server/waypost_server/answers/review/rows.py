@@ -7,6 +7,7 @@ from sqlalchemy import select
 
 from waypost import wire
 from waypost.prices import to_units
+from waypost_server.answers.review import predictions
 from waypost_server.db.tables import gold, gold_showings, queries
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import scoring
@@ -21,10 +22,12 @@ def review_page(tx: Tx, run: str, chosen: QueryFilter, page: RowPage) -> wire.Re
     found = query_page(tx, run, replace(chosen, state="answered"), page)
     ids = [row.id for row in found.rows]
     differing, known, twice = _differing(tx, ids), _known(tx, ids), _second(tx, ids)
+    predicted = predictions.of(tx, ids)
     rows = [
         wire.ReviewRow(
             query=row,
             differs=differing[row.id],
+            policy=predicted.get(row.id),
             gold=None if row.id not in known or row.answer is None else scoring.marks(known[row.id], row.answer),
             second=twice.get(row.id),
         )
