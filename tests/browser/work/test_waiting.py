@@ -1,7 +1,9 @@
 """What whoever waits for a question is told about the learner."""
 
-from playwright.sync_api import Page, Route, expect
+import pytest
+from playwright.sync_api import Page, Route, ViewportSize, expect
 from tests.browser.conftest import Open
+from tests.browser.pictures import SIZES
 from tests.browser.kit import Learner, ask, wait_for_heading
 
 SOON = 5_000  # milliseconds; without events, the view would ask again after 20 s
@@ -62,3 +64,14 @@ def test_a_pause_is_said_as_soon_as_it_begins(open_page: Open, learner: Learner)
     expect(page.get_by_text("The learner is trying its task")).to_be_visible(timeout=SOON)
     learner.ask(run, ask("inspect_full"))
     wait_for_heading(page, ask("inspect_full")["question"])
+
+
+@pytest.mark.parametrize("size", SIZES.values(), ids=SIZES)
+def test_no_word_is_on_the_empty_picture(open_page: Open, learner: Learner, size: ViewportSize) -> None:
+    page = open_page(f"/work?run={learner.create_run('beside')}", size=size)
+    wait_for_heading(page, "No question right now")
+    picture, words = (page.locator(f"main {part}").bounding_box() for part in (".stage", "section[aria-labelledby]"))
+    assert picture is not None
+    assert words is not None
+    right, bottom = picture["x"] + picture["width"], picture["y"] + picture["height"]
+    assert words["x"] >= right or words["y"] >= bottom
