@@ -67,11 +67,12 @@ class Refusal(Exception):
     name: ClassVar[str] = "refused"
     title: ClassVar[str] = "Refused"
 
-    def __init__(self, detail: str, *, retry_after: float | None = None) -> None:
+    def __init__(self, detail: str, *, retry_after: float | None = None, **members: object) -> None:
         super().__init__(detail)
         self.detail = detail
         self.retry_after = retry_after
-        self.errors: list[dict[str, object]] | None = None
+        self.members = members
+        """More members of the problem document, for clients that say what happened in their own words."""
 
 
 class Unauthenticated(Refusal):
@@ -342,8 +343,8 @@ class Unprocessable(Refusal):
     status, name, title = 422, "unprocessable", "The request is not valid"
 
     def __init__(self, location: Location, message: str) -> None:
-        super().__init__(f"{'.'.join(str(part) for part in location)}: {message}")
-        self.errors = [{"loc": list(location), "msg": message, "type": "value_error"}]
+        fault = {"loc": list(location), "msg": message, "type": "value_error"}
+        super().__init__(f"{'.'.join(str(part) for part in location)}: {message}", errors=[fault])
 
 
 class TooManyQueries(Refusal):

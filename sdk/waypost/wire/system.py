@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import BaseModel, Field, JsonValue
 
-from waypost.wire.words import Message
+from waypost.wire.words import Message, Role
 
 __all__ = [
     "Health",
@@ -28,6 +28,12 @@ class Problem(BaseModel):
     detail: str = Field(description="What was wrong with this request, and what to do.")
     instance: str | None = Field(default=None, description="The path of the request.")
     errors: list[dict[str, JsonValue]] | None = Field(default=None, description="For status 422: each invalid field.")
+    roles: list[Role] | None = Field(default=None, description="For `forbidden`: the roles that may do this.")
+    owner: str | None = Field(default=None, description="For `forbidden`: the name of the run's owner, who may.")
+    spent: float | None = Field(default=None, description="For `budget-too-low`: the units spent on answered queries.")
+    reserved: float | None = Field(
+        default=None, description="For `budget-too-low`: the units reserved for unanswered queries."
+    )
     request_id: str | None = Field(
         default=None, description="For status 5xx: the id of the request in the server's log."
     )

@@ -154,7 +154,8 @@ def check_role(access: Access, name: str, role: Role) -> None:
         Forbidden: naming the roles that would be allowed.
     """
     if role not in access.roles:
-        raise errors.Forbidden(f"This needs the role {' or '.join(sorted(access.roles))}; {name} is {role}.")
+        roles = sorted(access.roles)
+        raise errors.Forbidden(f"This needs the role {' or '.join(roles)}; {name} is {role}.", roles=roles)
 
 
 def check_scope(access: Access, scopes: frozenset[Scope] | None) -> None:
@@ -194,5 +195,6 @@ def check_owner(tx: Tx, run: str, owner: int, user: int, role: Role) -> None:
     if user != owner and role not in ADMINS:
         name = tx.conn.execute(_USER, {"user": owner}).one().name
         raise errors.Forbidden(
-            f"Run {run} belongs to {name}. Only its owner and administrators may change it; create a run of your own."
+            f"Run {run} belongs to {name}. Only its owner and administrators may change it; create a run of your own.",
+            owner=name,
         )

@@ -33,22 +33,19 @@ def document(status: int, name: str, title: str, detail: str, **more: Any) -> di
 
 def render(refusal: Refusal, instance: str | None = None) -> JSONResponse:
     """Return a refusal as a response."""
-    more: dict[str, Any] = {"instance": instance}
-    if refusal.errors is not None:
-        more["errors"] = refusal.errors
     headers = {}
     if refusal.retry_after is not None:
         headers["Retry-After"] = str(math.ceil(refusal.retry_after))
     if isinstance(refusal, errors.Unauthenticated):
         headers["WWW-Authenticate"] = "Bearer"
-    body = document(refusal.status, refusal.name, refusal.title, refusal.detail, **more)
+    body = document(refusal.status, refusal.name, refusal.title, refusal.detail, instance=instance, **refusal.members)
     return JSONResponse(body, refusal.status, headers, MEDIA_TYPE)
 
 
 def problem(refusal: Refusal) -> wire.Problem:
     """Return a refusal as a part of a reply."""
-    body = document(refusal.status, refusal.name, refusal.title, refusal.detail)
-    return wire.Problem.model_validate(body if refusal.errors is None else body | {"errors": refusal.errors})
+    body = document(refusal.status, refusal.name, refusal.title, refusal.detail, **refusal.members)
+    return wire.Problem.model_validate(body)
 
 
 def failed(method: str, path: str, error: Exception) -> JSONResponse:

@@ -245,9 +245,12 @@ def _checked_budget(row: Record, budget: float | None) -> int | None:
         return None
     committed = row.spent + row.reserved
     if to_micro(budget) < committed:
+        spent, reserved = to_units(row.spent), to_units(row.reserved)
         raise errors.BudgetTooLow(
-            f"{to_units(row.spent):g} units are spent and {to_units(row.reserved):g} reserved for open queries; "
-            f"the budget cannot be less than {to_units(committed):g}. Finish the run to release the reserved units."
+            f"{spent:g} units are spent and {reserved:g} reserved for open queries; the budget cannot be less than "
+            f"{to_units(committed):g}. Finish the run to release the reserved units.",
+            spent=spent,
+            reserved=reserved,
         )
     return to_micro(budget)
 

@@ -112,7 +112,7 @@ async def create_token(body: wire.TokenCreate, context: Ctx, caller: Allowed) ->
     """
     user = caller.user if body.user is None else body.user
     if user != caller.user and caller.role not in ADMINS:
-        raise errors.Forbidden("Only an administrator may create tokens for other users.")
+        raise errors.Forbidden("Only an administrator may create tokens for other users.", roles=["admin"])
     made_with = None if caller.by_cookie else caller.credential
     return await context.db.write(
         lambda tx: tokens.create_token(tx, user, body.label, body.days, body.scopes, made_with, caller.actor)

@@ -190,7 +190,7 @@ def test_a_run_is_renamed_preferred_limited_and_finished(
     page.get_by_role("checkbox", name="The run may cost at most").check()
     page.get_by_role("spinbutton", name="Units").fill("4")
     page.get_by_role("button", name="Save").click()
-    expect(page.get_by_role("alert")).to_contain_text("the budget cannot be less than 5")
+    expect(page.get_by_role("alert")).to_contain_text("the budget must be at least 5")
     page.get_by_role("spinbutton", name="Units").fill("5.5")
     page.get_by_role("button", name="Save").click()
     expect(page.get_by_role("dialog")).to_be_hidden()

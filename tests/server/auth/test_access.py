@@ -302,7 +302,16 @@ def test_a_refused_learner_is_told_whose_run_it_is(service: Service) -> None:
     assert said["detail"] == (
         f"Run {run} belongs to lea. Only its owner and administrators may change it; create a run of your own."
     )
+    assert said["owner"] == "lea"
     assert service.viewer.get(f"/runs/{run}")["name"] == "a run"
+
+
+def test_who_lacks_a_role_is_told_which_roles_may_do_it(service: Service) -> None:
+    run = service.learner.create_run()
+    assert service.viewer.patch(run, 403, name="mine")["roles"] == ["admin", "learner"]
+    assert service.viewer.get("/users", 403)["roles"] == ["admin"]
+    other = service.admin.get("/me")["id"]
+    assert service.learner.post("/tokens", {"user": other}, 403)["roles"] == ["admin"]
 
 
 @pytest.mark.parametrize(

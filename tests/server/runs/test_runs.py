@@ -89,6 +89,7 @@ def test_a_budget_is_not_lowered_below_what_is_held(service: Service) -> None:
     problem = service.learner.patch(run, 409, budget=2)
     assert problem["type"] == "/problems/budget-too-low"
     assert "3 reserved" in problem["detail"]
+    assert (problem["spent"], problem["reserved"]) == (0, 3)
     assert service.learner.patch(run, budget=3)["budget"] == 3
     assert service.learner.patch(run, budget=None)["budget"] is None
 

@@ -13,7 +13,7 @@ export class Refused extends Error {
 
   constructor(status: number, problem: Partial<Problem> | undefined) {
     const name = problem?.type?.split('/').at(-1) ?? 'refused';
-    super(refusalWords(name) ?? problem?.detail ?? t(`The server answered with status ${status}.`));
+    super(refusalWords(name, problem) ?? problem?.detail ?? t(`The server answered with status ${status}.`));
     this.status = status;
     this.name = name;
   }
@@ -63,7 +63,7 @@ export function tryingAgain(): string {
   return t('The server cannot be reached. The web app tries again automatically.');
 }
 
-/** Return what to tell the person about an error. A refusal that the page has no words for is in English. */
+/** Return what to tell the person about an error. `refusals.ts` says which refusals are in English. */
 export function wordsOf(error: unknown, unreachable?: string): string {
   if (error instanceof Unreachable) return unreachable ?? t('The server cannot be reached.');
   return error instanceof Error ? error.message : String(error);

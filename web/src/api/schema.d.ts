@@ -4401,6 +4401,26 @@ export interface components {
                 [key: string]: components["schemas"]["JsonValue"];
             }[] | null;
             /**
+             * Roles
+             * @description For `forbidden`: the roles that may do this.
+             */
+            roles?: ("admin" | "learner" | "annotator" | "viewer")[] | null;
+            /**
+             * Owner
+             * @description For `forbidden`: the name of the run's owner, who may.
+             */
+            owner?: string | null;
+            /**
+             * Spent
+             * @description For `budget-too-low`: the units spent on answered queries.
+             */
+            spent?: number | null;
+            /**
+             * Reserved
+             * @description For `budget-too-low`: the units reserved for unanswered queries.
+             */
+            reserved?: number | null;
+            /**
              * Request Id
              * @description For status 5xx: the id of the request in the server's log.
              */
