@@ -3,8 +3,8 @@
 import pytest
 from playwright.sync_api import Page, Route, ViewportSize, expect
 from tests.browser.conftest import Open
-from tests.browser.pictures import SIZES
 from tests.browser.kit import Learner, ask, wait_for_heading
+from tests.browser.pictures import SIZES
 
 SOON = 5_000  # milliseconds; without events, the view would ask again after 20 s
 
