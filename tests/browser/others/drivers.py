@@ -26,7 +26,8 @@ class _Firefox:
     def __init__(self, path: str) -> None:
         from marionette_driver.marionette import Marionette
 
-        self._marionette = Marionette(host="127.0.0.1", port=0, bin=path, headless=True)
+        log_to = "-"  # standard output; else the browser writes a file into the working folder
+        self._marionette = Marionette(host="127.0.0.1", port=0, bin=path, headless=True, gecko_log=log_to)
         self._marionette.start_session()
 
     def open(self, address: str) -> None:
