@@ -10,6 +10,7 @@ from waypost.wire.words import Kind, Message
 __all__ = [
     "Agreement",
     "AgreementOfKind",
+    "Difference",
     "Predicted",
     "Prediction",
     "Predictions",
@@ -35,12 +36,22 @@ class Predictions(Message):
     predictions: list[Prediction] = Field(max_length=MOST_PREDICTIONS, description="At most one per query.")
 
 
+class Difference(Message):
+    """A place where the learner's policies would answer otherwise than the annotator did, sent by the server."""
+
+    place: int = Field(description="The number of the segment or the state in the query, from 0.")
+    answer: str | None = Field(
+        description='The annotator\'s label; "(done)" and "(not done)" are the two of a segment\'s end, null is none.'
+    )
+    policy: str | None = Field(description="The label of the policies, in the same words.")
+
+
 class Predicted(Message):
     """What the learner's policies would answer to a query, as the learner sent it last; sent by the server."""
 
     episode: int = Field(description="The last episode from which the policies had learned.")
     answer: Answer
-    differs: bool = Field(description="Whether it differs from the answer in a label.")
+    differences: list[Difference] = Field(description="Where it differs from the annotator's answer.")
 
 
 class SecondAnswer(Message):

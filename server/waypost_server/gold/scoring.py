@@ -4,7 +4,7 @@ A label is a verdict, a subgoal, an action, or the termination of a segment. A l
 """
 
 from collections.abc import Sequence
-from itertools import chain
+from itertools import chain, zip_longest
 from typing import assert_never, cast
 
 from pydantic import TypeAdapter
@@ -99,6 +99,12 @@ def labels(answer: wire.Answer) -> list[str | None]:
             return []
         case _:
             assert_never(answer)
+
+
+def differences(answer: wire.Answer, policy: wire.Answer) -> list[wire.Difference]:
+    """Return where what the learner's policies would answer to a query differs from its answer."""
+    both = zip_longest(labels(answer), labels(policy))
+    return [wire.Difference(place=at, answer=one, policy=now) for at, (one, now) in enumerate(both) if one != now]
 
 
 def differ(one: wire.Answer | None, other: wire.Answer) -> bool | None:

@@ -32,5 +32,5 @@ def test_an_answer_is_found_that_the_policy_contradicts_after_it_has_learned(ope
     expect(shown).to_have_attribute("data-query", str(queries[0]))
     expect(page.get_by_text("≠ the learner's policy now")).to_be_visible()
     expect(now).to_have_text("The learner's policy after episode 1,024")
-    expect(now.locator("+ ol")).to_contain_text("west")
+    expect(now.locator("+ ul").get_by_role("listitem").first).to_have_text("1 west instead of south")
     assert violations(page) == []

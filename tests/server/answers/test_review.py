@@ -169,12 +169,31 @@ def test_answers_are_compared_with_what_the_policies_would_answer_now(service: S
     assert [one["query"]["id"] for one in rows] == [unknown, wrong, right]
     assert [one["policy"] for one in rows] == [
         None,
-        {"episode": 7, "answer": other, "differs": True},
-        {"episode": 8, "answer": given, "differs": False},
+        {
+            "episode": 7,
+            "answer": other,
+            "differences": [{"place": 0, "answer": given["subgoals"][0], "policy": "north"}],
+        },
+        {"episode": 8, "answer": given, "differences": []},
     ]
     service.learner.patch(run, state="finished")
     service.learner.call("DELETE", f"/runs/{run}")
     assert service.db.read_now(lambda tx: tx.conn.execute(select(predictions)).all()) == []
+
+
+def test_each_label_of_a_segment_is_compared_up_to_its_ends(service: Service) -> None:
+    run = service.learner.create_run()
+    (asked,) = service.learner.ask(run, query("label_lo"))
+    answer = {"kind": "label_lo", "actions": ["down", "down"], "terminations": [False, False, False]}
+    service.annotator.answer(service.annotator.lease(run=run), answer)
+    service.learner.post(f"/queries/{asked['id']}/use")
+    predict(service, run, (asked["id"], answer | {"actions": ["up", "down"], "terminations": [False, True, False]}))
+    (row,) = service.learner.get(f"/runs/{run}/review")["rows"]
+    assert row["policy"]["differences"] == [
+        {"place": 0, "answer": "down", "policy": "up"},
+        {"place": 1, "answer": "down", "policy": "(done)"},
+        {"place": 2, "answer": "(not done)", "policy": None},
+    ]
 
 
 def test_a_prediction_must_be_a_label_for_a_query_of_the_run_with_a_used_answer(service: Service) -> None:

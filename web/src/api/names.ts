@@ -34,6 +34,16 @@ export function readable(name: string): string {
   return name.replaceAll('_', ' ');
 }
 
+/** Return a label in words; the end of a segment is a label too. */
+export function labelWords(label: string | null): string {
+  if (label === null) return t('nothing');
+  if (label === '(done)') return t('done here');
+  if (label === '(not done)') return t('not done');
+  if (label === 'pass') return t('yes, it worked');
+  if (label === 'fail') return t('no, it failed');
+  return readable(label);
+}
+
 /** Return the letter that stands for a subgoal: N for north, T for go_to_target. */
 export function initial(name: string): string {
   return name

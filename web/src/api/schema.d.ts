@@ -2955,6 +2955,27 @@ export interface components {
             actions: string[];
         };
         /**
+         * Difference
+         * @description A place where the learner's policies would answer otherwise than the annotator did, sent by the server.
+         */
+        Difference: {
+            /**
+             * Place
+             * @description The number of the segment or the state in the query, from 0.
+             */
+            place: number;
+            /**
+             * Answer
+             * @description The annotator's label; "(done)" and "(not done)" are the two of a segment's end, null is none.
+             */
+            answer: string | null;
+            /**
+             * Policy
+             * @description The label of the policies, in the same words.
+             */
+            policy: string | null;
+        };
+        /**
          * EpisodeList
          * @description Results of episodes, in their order, sent by the learner.
          */
@@ -4227,10 +4248,10 @@ export interface components {
             /** Answer */
             answer: components["schemas"]["HierDemoAnswer"] | components["schemas"]["InspectAnswer"] | components["schemas"]["LabelHiAnswer"] | components["schemas"]["LabelLoAnswer"] | components["schemas"]["LabelFullAnswer"];
             /**
-             * Differs
-             * @description Whether it differs from the answer in a label.
+             * Differences
+             * @description Where it differs from the annotator's answer.
              */
-            differs: boolean;
+            differences: components["schemas"]["Difference"][];
         };
         /**
          * Prediction

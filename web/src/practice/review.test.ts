@@ -1,16 +1,8 @@
 import { expect, test } from 'vitest';
+import { labelWords } from '../api/names';
 import type { Answerable } from '../api/types';
 import { buildTape } from '../player/tape';
-import {
-  choicesWords,
-  firstToSee,
-  frameOf,
-  labelWords,
-  mistakeOf,
-  placeOf,
-  verdictWords,
-  type Mark,
-} from './review';
+import { choicesWords, firstToSee, frameOf, mistakeOf, placeOf, verdictWords, type Mark } from './review';
 
 const segment = (subgoal: string, from: number, n: number) => ({
   subgoal,

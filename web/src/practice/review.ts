@@ -1,5 +1,5 @@
 // The feedback in words, and the places on the map that it is about.
-import { readable } from '../api/names';
+import { labelWords } from '../api/names';
 import type { Answerable, Feedback } from '../api/types';
 import { t } from '../language/language';
 import { askedFrames, lastFrame, type Tape } from '../player/tape';
@@ -36,16 +36,6 @@ function ownLabel(ask: Answerable, place: number): string | null {
   if (ask.kind === 'label_full' || action !== undefined) return action ?? null;
   const { suggestion } = ask;
   return suggestion && 'terminations' in suggestion && suggestion.terminations.at(-1) ? '(done)' : null;
-}
-
-/** Return a label in words; the end of a segment is a label too. */
-export function labelWords(label: string | null): string {
-  if (label === null) return t('nothing');
-  if (label === '(done)') return t('done here');
-  if (label === '(not done)') return t('not done');
-  if (label === 'pass') return t('yes, it worked');
-  if (label === 'fail') return t('no, it failed');
-  return readable(label);
 }
 
 export function choicesWords(right: readonly string[]): string {

@@ -49,7 +49,16 @@ def put(tx: Tx, run: str, sent: wire.Predictions, user: int) -> None:
 
 def of(tx: Tx, ids: Sequence[int]) -> Mapping[int, wire.Predicted]:
     """Return what the policies would answer to those of these queries for which the learner sent it."""
-    return {
-        row.query_id: wire.Predicted(episode=row.episode, answer=ANSWER.validate_json(row.content), differs=row.differs)
-        for row in tx.conn.execute(select(table).where(table.c.query_id.in_(ids)))
-    }
+    sent = (
+        select(table.c.query_id, table.c.episode, table.c.content, answers.c.content.label("answer"))
+        .join(queries, queries.c.id == table.c.query_id)
+        .join(answers, answers.c.id == queries.c.answer_id)
+        .where(table.c.query_id.in_(ids))
+    )
+    return {row.query_id: _predicted(row.episode, row.answer, row.content) for row in tx.conn.execute(sent)}
+
+
+def _predicted(episode: int, answer: str, content: str) -> wire.Predicted:
+    policy = ANSWER.validate_json(content)
+    differences = scoring.differences(ANSWER.validate_json(answer), policy)
+    return wire.Predicted(episode=episode, answer=policy, differences=differences)
