@@ -24,7 +24,8 @@ ANSWER = {
 }
 LEARN = {
     *("createRun", "patchRun", "deleteRun", "reportEpisodes", "ask", "useAnswer", "putFrames", "missingFrames"),
-    *("addGold", "retireGold", "listGold", "putPractice", "listReview", "comment", "sendBack", "playOffer"),
+    *("addGold", "retireGold", "listGold", "putPractice", "putPredictions", "listReview", "comment", "sendBack"),
+    "playOffer",
 }
 BY_SCOPE: dict[Scope, set[str]] = {
     "read": READ,
