@@ -84,7 +84,8 @@ def test_everybody_has_a_page_of_their_own(open_page: Open, complaints: Complain
     complaints.expect("401")
     complaints.expect("403")
     page = open_page("/people", role="annotator")
-    expect(page.get_by_role("heading", name="This is for administrators")).to_be_visible()
+    expect(page.get_by_role("heading", name="Your account may not see this")).to_be_visible()
+    expect(page.get_by_text("This needs the role admin.")).to_be_visible()
     page.get_by_role("link", name="your own account").click()
     page.get_by_label("What it is for").fill("my laptop")
     page.get_by_role("combobox", name="Valid for").select_option("30 days")
@@ -209,4 +210,4 @@ def test_gold_queries_are_set_in_the_page_and_not_seen_by_annotators(
     expect(admin.get_by_text("100%").first).to_be_visible()
     assert learner.call("GET", f"/runs/{run}/costs")["total"] == before + 2
     other.goto(f"/runs/{run}/gold")
-    expect(other.get_by_role("heading", name="This is for administrators")).to_be_visible()
+    expect(other.get_by_role("heading", name="Your account may not see this")).to_be_visible()

@@ -81,7 +81,7 @@ def test_work_without_a_server_a_session_or_the_right(
     wait_for_heading(page, "This account cannot answer questions")
     check(page, "refused")
     page.goto("/people")
-    page.get_by_role("heading", name="This is for administrators").wait_for()
+    page.get_by_role("heading", name="Your account may not see this").wait_for()
     check(page, "people, refused")
     page.goto("/runs/none-such")
     page.get_by_role("heading", name="There is no such run").wait_for()
