@@ -85,6 +85,7 @@ def test_in_a_maze_an_expert_sees_how_the_learner_failed_and_plays_on_from_there
     press(page, "n")
     walk(page, "uuu")
     expect(page.get_by_text("this answer costs 5 units")).to_be_visible()  # 3 steps, a subgoal, a termination
+    expect(slider).to_have_value("8")  # all three are carried out: before that, nothing is sent
     press(page, "Enter")
     expect(page.get_by_text("Send the demonstration, or undo a move.")).to_be_visible()
     press(page, "Enter")
