@@ -16,7 +16,8 @@ import typer
 from tests.conftest import Cluster, postgresql_binaries
 from tests.soak import trials
 
-DONE = ("rounds", "kills", "power losses", "faults", "backups restored", "refused", "acknowledged")
+TRIED = ("kills", "power losses", "faults", "backups restored", "link cuts", "late answers", "schedules")
+DONE = ("rounds", "acknowledged", "refused")
 WRONG = ("lost", "charged twice", "other faults")
 
 
@@ -56,7 +57,7 @@ def one_round(name: str, trial: trials.Trial, seed: int) -> Counter[str]:
     except Exception:
         traceback.print_exc()
         found = Counter({"broken off": 1})
-    others = {fault: n for fault, n in found.items() if fault not in {*DONE, *WRONG}}
+    others = {fault: n for fault, n in found.items() if fault not in {*TRIED, *DONE, *WRONG}}
     found = Counter({one: n for one, n in found.items() if one not in others})
     found += Counter({"rounds": 1, "other faults": sum(others.values())})
     if any(found[fault] for fault in WRONG):
@@ -70,8 +71,10 @@ def one_round(name: str, trial: trials.Trial, seed: int) -> Counter[str]:
 def table(counts: Mapping[str, Counter[str]]) -> str:
     """Return the counts as a table in Markdown."""
     columns = (*DONE, *WRONG)
-    rows = [["trial", *columns], ["---"] * (len(columns) + 1)]
-    rows += [[name, *(f"{found[column]:,}" for column in columns)] for name, found in counts.items()]
+    rows = [["trial", "tried", *columns], ["---"] * (len(columns) + 2)]
+    for name, found in counts.items():
+        tried = ", ".join(f"{found[what]:,} {what}" for what in TRIED if found[what])
+        rows.append([name, tried, *(f"{found[column]:,}" for column in columns)])
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 

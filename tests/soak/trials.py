@@ -4,28 +4,41 @@ The seed decides when servers are killed, which calls fail, and what power losse
 threads of clients and server take turns.
 """
 
+import asyncio
 import errno
 import random
 import signal
 import threading
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
+from urllib.parse import urlsplit
 
 from tests.conftest import Cluster
+from tests.server.answers.model import run_schedules
+from tests.server.db.racing import race
 from tests.server.disk.disk import Call, File
-from tests.server.disk.load import Told, answer_all, proof, send_again, team
+from tests.server.disk.load import Answer, Told, answer_all, proof, send_again, team
 from tests.server.disk.recording import Recording
+from tests.server.kit import in_process
 from tests.server.processes import serving
+from tests.soak.link import Link
 
+from waypost import wire
+from waypost.client import Client
 from waypost_server.db import backup
 
 Trial = Callable[[Path, int], Counter[str]]
 
 N_ANNOTATORS = 4
 N_QUERIES = 400
+N_RACED = 2_000
+N_SCHEDULES = 100
 SHORTEST, LONGEST = 0.1, 1.5  # seconds until a server is killed
+CUT_RATE = 0.1  # of the requests
 
 
 def power(folder: Path, seed: int) -> Counter[str]:
@@ -95,17 +108,68 @@ def backups(folder: Path, seed: int) -> Counter[str]:
     return _told(told) + counts + proof(url, told)
 
 
+def cuts(url: str, folder: Path, seed: int) -> Counter[str]:
+    """Let annotators answer with the client of the public package, through a network that breaks connections."""
+    told = Told()
+    people = team(url, N_QUERIES, N_ANNOTATORS)
+    with serving(url, folder, {}) as server:
+        link = Link(urlsplit(server.address).port or 0, CUT_RATE, seed)
+        with link.serving() as address, ThreadPoolExecutor(N_ANNOTATORS) as pool:
+            list(pool.map(lambda headers: _annotate(address, headers, people.run, told), people.annotators))
+    counts = Counter({"link cuts": link.cuts.total(), "not answered": N_QUERIES - len(told.answers)})
+    return _told(told) + counts + proof(url, told) + Counter({"other receipts": send_again(url, told)})
+
+
+def races(url: str, folder: Path, seed: int) -> Counter[str]:
+    """Let 64 annotators empty a queue; every third answers after its lease now and then."""
+    raced = asyncio.run(race(url, 64, N_RACED, seed))
+    expected = {"accepted", "lease-expired", "stale"}
+    return Counter(
+        {
+            "acknowledged": raced.seen["accepted"] + raced.seen["stale"],
+            "late answers": raced.seen["lease-expired"] + raced.seen["stale"],
+            "stale leases accepted": raced.seen["stale"],
+            "lost": raced.seen["accepted"] - len(raced.charges),
+            "charged twice": sum(n > 1 for n in raced.charges),
+            "other problems": sum(n for name, n in raced.seen.items() if name not in expected),
+            "the run's account differs": raced.costs["total"] != len(raced.charges) or raced.costs["reserved"] != 0,
+        }
+    )
+
+
+def schedules(url: str, folder: Path, seed: int) -> Counter[str]:
+    """Run sequences of calls, and compare the server with the model after each call."""
+    with in_process(url, follow_up_seconds=0) as service:
+        run_schedules(service, N_SCHEDULES, 50, seed)
+    return Counter({"schedules": N_SCHEDULES})
+
+
 def every(cluster: Cluster | None) -> dict[str, Trial]:
     """Return all trials by name; without a cluster, those of SQLite."""
-    trials: dict[str, Trial] = {
-        "power": power,
-        "faults": faults,
-        "kills": lambda folder, seed: kills(f"sqlite:///{folder / 'store.db'}", folder, seed),
-        "backups": backups,
-    }
+    trials: dict[str, Trial] = {"power": power, "faults": faults, "backups": backups}
+    on_both = {"kills": kills, "cuts": cuts, "races": races, "schedules": schedules}
+    for name, trial in on_both.items():
+        trials[name] = _on(trial, lambda folder: f"sqlite:///{folder / 'store.db'}")
     if cluster is not None:
-        trials["kills, PostgreSQL"] = lambda folder, seed: kills(cluster.create(), folder, seed)
+        for name, trial in on_both.items():
+            trials[f"{name}, PostgreSQL"] = _on(trial, lambda _: cluster.create())
     return trials
+
+
+def _on(trial: Callable[[str, Path, int], Counter[str]], store: Callable[[Path], str]) -> Trial:
+    return lambda folder, seed: trial(store(folder), folder, seed)
+
+
+def _annotate(address: str, headers: Mapping[str, str], run: str, told: Told) -> None:
+    """Answer until no query is left, also those whose assignment never arrived."""
+    with closing(Client(address, headers["Authorization"].removeprefix("Bearer "))) as client:
+        while held := client.lease(wire.Lease(run=run)) or next(iter(client.assignments()), None):
+            answer = wire.InspectAnswer(kind="inspect_full", verdict="pass")
+            body = {"token": held.token, "answer": answer.model_dump(mode="json")}
+            sent = Answer(held.id, body, dict(headers))
+            told.answers.append(sent)
+            sent.receipt = client.answer(held, answer).model_dump(mode="json")
+            sent.seen = 0
 
 
 def _told(told: Told) -> Counter[str]:

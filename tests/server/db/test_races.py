@@ -1,79 +1,32 @@
 """Races: many annotators, some too slow, on one queue. Nothing is answered twice and nothing is charged twice."""
 
 import asyncio
-import random
 import threading
 import time
 from collections import Counter
 from typing import Any
 
-import httpx2
 import pytest
 from sqlalchemy import Connection, create_engine, text
-from tests.server.kit import VOCABULARY, Json, Service, in_process, query, right_answer, together
+from tests.server.db.racing import race
+from tests.server.kit import Json, Service, in_process, query, right_answer, together
 
 from waypost import wire
 from waypost_server.answers import service as answers
-from waypost_server.app import create_app
 from waypost_server.db import prepared
 from waypost_server.db.transaction import Tx
 from waypost_server.leases import service as leases
 from waypost_server.leases.request import LeaseRequest
 from waypost_server.settings import Settings
 
-LEASE_SECONDS = 2.0
-N_QUERIES = 500
-RUN = {"name": "race", "algorithm": "x", "seed": 0, "vocabulary": VOCABULARY, "budget": N_QUERIES}
-CHARGED = "SELECT count(*) AS n FROM ledger GROUP BY query_id"
-
-
-async def work(client: httpx2.AsyncClient, headers: dict[str, str], slow: bool) -> Counter[str]:
-    """Lease and answer until the queue is empty; a slow one takes longer than its lease, at first and now and then."""
-    seen: Counter[str] = Counter()
-    late = slow
-    while True:
-        reply = await client.post("/api/v1/assignments", json={"wait": 2 * LEASE_SECONDS}, headers=headers)
-        if reply.status_code == 204:
-            return seen
-        held: Json = reply.json()
-        if late:
-            await asyncio.sleep(1.2 * LEASE_SECONDS)
-        body = {"token": held["token"], "answer": right_answer(held["query"]["ask"])}
-        reply = await client.post(f"/api/v1/assignments/{held['id']}/answer", json=body, headers=headers)
-        seen["accepted" if reply.status_code == 200 else reply.json()["type"]] += 1
-        assert not (late and reply.status_code == 200), "a stale lease was accepted"
-        late = slow and random.random() < 0.1
-
-
-async def race(url: str) -> tuple[Json, list[int], Counter[str]]:
-    """Let 32 annotators, a third of them slow, empty a queue; one event loop, so that the machine's threads do not."""
-    app = create_app(Settings(database=url, lease_seconds=LEASE_SECONDS, hosts=("testserver",)))
-    transport = httpx2.ASGITransport(app=app)
-    async with (
-        app.router.lifespan_context(app),
-        httpx2.AsyncClient(transport=transport, base_url="http://testserver", timeout=None) as client,
-    ):
-        with httpx2.Client() as unused:
-            service = Service(unused, app.state.context.db)
-        run = await client.post("/api/v1/runs", json=RUN, headers=service.learner.headers)
-        path = f"/api/v1/runs/{run.json()['id']}"
-        for start in range(0, N_QUERIES, 100):
-            body = {"queries": [query(ordinal=start + n) for n in range(100)]}
-            assert (await client.post(f"{path}/queries", json=body, headers=service.learner.headers)).status_code == 200
-        annotators = service.annotators(32)
-        done = await asyncio.gather(*(work(client, one.headers, n % 3 == 0) for n, one in enumerate(annotators)))
-        costs = (await client.get(f"{path}/costs", headers=service.viewer.headers)).json()
-        charged = service.db.read_now(lambda tx: tx.conn.exec_driver_sql(CHARGED).all())
-        return costs, [row.n for row in charged], sum(done, Counter())
-
 
 def test_racing_annotators_answer_each_query_once_and_none_is_charged_twice(database_url: str) -> None:
-    costs, charges, seen = asyncio.run(race(database_url))
-    assert seen["accepted"] == N_QUERIES
-    assert seen["/problems/lease-expired"] >= 11, "no lease expired: the race was not run"
-    assert set(seen) == {"accepted", "/problems/lease-expired"}
-    assert (costs["total"], costs["reserved"]) == (N_QUERIES, 0)
-    assert charges == [1] * N_QUERIES
+    raced = asyncio.run(race(database_url, 32, 500, seed=0))
+    assert set(raced.seen) == {"accepted", "lease-expired"}, "an answer was accepted after its lease"
+    assert raced.seen["accepted"] == 500
+    assert raced.seen["lease-expired"] >= 11, "no lease expired: the race was not run"
+    assert (raced.costs["total"], raced.costs["reserved"]) == (500, 0)
+    assert raced.charges == [1] * 500
 
 
 def test_one_query_goes_to_one_of_many_who_wait(service: Service) -> None:
