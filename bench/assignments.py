@@ -5,19 +5,23 @@ lease and one answer, each acknowledged after it is on disk. In a chain, the rep
 lease, so a cycle is one call. In batches, one call leases 32 queries and one answers them. In batches of answers, all
 queries are leased before the clock starts, so a cycle is one answer. All queries are asked before the clock starts. The
 script prints a table per database and asserts nothing.
+
+The annotators are threads of this process, which take about as much CPU time as the server. With `--client wrk`, they
+are threads of wrk, a program in C, which take little.
 """
 
 import argparse
 import json
 import os
 import platform
+import shutil
 import sqlite3
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, closing, contextmanager
 from itertools import product
@@ -34,7 +38,8 @@ from waypost_server.users import service as users
 ANNOTATORS = (1, 8, 32)
 BATCH = 100  # queries asked at a time
 BACKLOG = 3_000  # open queries at the start
-MODES = ("lease + answer", "chained", "batches", "batches of answers")
+ONE_BY_ONE = ("lease + answer", "chained")
+MODES = (*ONE_BY_ONE, "batches", "batches of answers")
 TOGETHER = 32  # queries of a batch of answers
 VOCABULARY = {"domain": "bench", "subgoals": ["here"], "actions": ["up", "down"], "renderer": "none"}
 ANSWER = {"kind": "inspect_lo", "verdict": "pass"}
@@ -104,8 +109,8 @@ class Annotator:
     def __init__(self, url: str, headers: dict[str, str], run: str) -> None:
         self._client = httpx2.Client(base_url=f"{url}/api/v1", headers=headers, timeout=60)
         self._run = run
-        self.seconds: list[float] = []  # of each cycle
-        self.answered: list[int] = []  # the queries
+        self.milliseconds: list[float] = []  # of each cycle
+        self.answered: list[int] = []  # the query of each cycle
         self._held: list[dict[str, Any]] = []  # what was leased before the clock started
 
     def hold(self, count: int) -> None:
@@ -137,7 +142,7 @@ class Annotator:
             if chained:
                 body["next"] = wanted
             receipt = self._client.post(f"/assignments/{held['id']}/answer", json=body).raise_for_status().json()
-            self.seconds.append(time.perf_counter() - start)
+            self.milliseconds.append(1_000 * (time.perf_counter() - start))
             self.answered.append(receipt["query"])
             held = receipt["next"]
 
@@ -161,8 +166,17 @@ class Annotator:
     def _answer_batch(self, held: list[dict[str, Any]], start: float) -> None:
         answers = [{"assignment": one["id"], "token": one["token"], "answer": ANSWER} for one in held]
         results = self._client.post("/assignments/answers", json={"answers": answers}).json()["results"]
-        self.seconds += [(time.perf_counter() - start) / len(held)] * len(held)
+        self.milliseconds += [1_000 * (time.perf_counter() - start) / len(held)] * len(held)
         self.answered += [result["receipt"]["query"] for result in results]
+
+
+def work_with_wrk(url: str, headers: Sequence[dict[str, str]], run: str, mode: str, seconds: float) -> list[list[str]]:
+    """Let wrk work as one annotator per thread; return the milliseconds and the query of each cycle."""
+    n, script = str(len(headers)), str(Path(__file__).with_suffix(".lua"))
+    tokens = [one["Authorization"].removeprefix("Bearer ") for one in headers]
+    command = ["wrk", "-t", n, "-c", n, "-d", f"{seconds:g}s", "-s", script, url, "--", mode, run, json.dumps(ANSWER)]
+    done = subprocess.run([*command, *tokens], stdout=subprocess.PIPE, text=True, check=True)
+    return [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("cycle ")]
 
 
 def cpu_seconds(pid: int) -> float:
@@ -171,7 +185,9 @@ def cpu_seconds(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def row(name: str, database: str, n: int, seconds: float, mode: str, backlog: int, limit: float) -> str:
+def row(
+    name: str, database: str, n: int, seconds: float, mode: str, backlog: int, limit: float, *, with_wrk: bool
+) -> str:
     """Measure and return one row of the table; `limit` is the number of commits/s of SQLite alone on this disk."""
     with serving(database) as (url, pid, learner, headers):
         run = ask_all(url, learner, backlog)
@@ -180,11 +196,15 @@ def row(name: str, database: str, n: int, seconds: float, mode: str, backlog: in
             for one in annotators:
                 one.hold(backlog // n)
         before, start = cpu_seconds(pid), time.perf_counter()
-        with ThreadPoolExecutor(n) as pool:
-            list(pool.map(lambda one: one.work(mode, start + seconds), annotators))
+        if with_wrk:
+            cycles = work_with_wrk(url, headers[:n], run, mode, seconds)
+        else:
+            with ThreadPoolExecutor(n) as pool:
+                list(pool.map(lambda one: one.work(mode, start + seconds), annotators))
+            cycles = [cycle for one in annotators for cycle in zip(one.milliseconds, one.answered, strict=True)]
         cpu, took = cpu_seconds(pid) - before, time.perf_counter() - start
-    times = sorted(1_000 * each for one in annotators for each in one.seconds)
-    answered = [query for one in annotators for query in one.answered]
+    times = sorted(float(milliseconds) for milliseconds, _ in cycles)
+    answered = [query for _, query in cycles]
     p99 = times[min(len(times) - 1, int(0.99 * len(times)))]
     duplicates = len(answered) - len(set(answered))
     rate = len(times) / took
@@ -226,7 +246,13 @@ def main() -> None:
     parser.add_argument("--backlogs", type=int, nargs="+", default=[BACKLOG], help="open queries at the start")
     databases = ("SQLite", "PostgreSQL")
     parser.add_argument("--databases", nargs="+", choices=databases, default=list(databases))
+    parser.add_argument("--client", choices=("python", "wrk"), default="python", help="who the annotators are")
     options = parser.parse_args()
+    with_wrk = options.client == "wrk"
+    if with_wrk and not {*options.modes} <= {*ONE_BY_ONE}:
+        parser.error(f"wrk has no batches; add --modes {' '.join(map(repr, ONE_BY_ONE))}")
+    if with_wrk and shutil.which("wrk") is None:
+        parser.error("there is no wrk on this machine; Debian has it in the package wrk")
     print(machine())
     size = len(json.dumps(query(1)))
     print(f"A query has {size} bytes. Each row takes {options.seconds:g} s. Clients and server share the cores.\n")
@@ -246,7 +272,10 @@ def main() -> None:
         rows = product(options.databases, options.modes, options.backlogs, options.annotators)
         for number, (name, mode, backlog, n) in enumerate(rows):
             if name in targets:
-                print(row(name, targets[name](number), n, options.seconds, mode, backlog, limit), flush=True)
+                print(
+                    row(name, targets[name](number), n, options.seconds, mode, backlog, limit, with_wrk=with_wrk),
+                    flush=True,
+                )
 
 
 if __name__ == "__main__":
