@@ -3,6 +3,9 @@
 A learner asks queries of about 2 kB, a thousand at a time, and reports an episode for every hundred; two annotators
 lease and answer them in batches of 32. Then annotators lease and answer a new run's queries one by one, on that store
 and on a new one, and Chromium opens the page of the large run. The script prints tables and asserts nothing.
+
+With `--store FILE`, the store is kept, and the next call goes on filling it. The times of asking and answering are then
+those of the last call, for the answers that it added.
 """
 
 import argparse
@@ -12,6 +15,7 @@ import tempfile
 import time
 from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from itertools import repeat
 from pathlib import Path
 from typing import Any
@@ -38,13 +42,25 @@ def report(episodes: Iterable[int]) -> dict[str, Any]:
     }
 
 
-def fill(url: str, learner: dict[str, str], annotators: list[dict[str, str]], answers: int) -> tuple[str, float, float]:
-    """Have a run's queries answered; return the run, the seconds of asking and the seconds of answering."""
+@dataclass(frozen=True)
+class Filled:
+    """A run whose queries were answered: its id, the answers that were added, and the seconds that this took."""
+
+    run: str
+    added: int
+    asking: float
+    answering: float
+
+
+def fill(url: str, learner: dict[str, str], annotators: list[dict[str, str]], answers: int) -> Filled:
+    """Have a run's queries answered, beginning where an earlier call ended."""
     asking = answering = 0.0
     with httpx2.Client(base_url=f"{url}/api/v1", headers=learner, timeout=60) as client, ThreadPoolExecutor() as pool:
         body = {"name": f"{answers:,} answers", "algorithm": "bench", "seed": 0, "vocabulary": VOCABULARY}
-        run = str(client.post("/runs", json=body).json()["id"])
-        for first in range(0, answers, AT_ONCE):
+        earlier = [one for one in client.get("/runs").json()["runs"] if one["name"] == body["name"]]
+        (found,) = earlier or [client.post("/runs", json=body).json()]
+        run, before = str(found["id"]), int(found["spent"])  # an answer costs a unit
+        for first in range(before // AT_ONCE * AT_ONCE, answers, AT_ONCE):
             numbers = range(first, min(first + AT_ONCE, answers))
             start = time.perf_counter()
             client.post(f"/runs/{run}/queries", json={"queries": [*map(query, numbers)]}).raise_for_status()
@@ -55,7 +71,7 @@ def fill(url: str, learner: dict[str, str], annotators: list[dict[str, str]], an
             list(pool.map(Annotator.work, working, repeat("batches"), repeat(asked + 60)))
             asking, answering = asking + asked - start, answering + time.perf_counter() - asked
             print(f"{numbers[-1] + 1:,} answers", end="\r", file=sys.stderr)
-    return run, asking, answering
+    return Filled(run, answers - before, asking, answering)
 
 
 def page_loads(url: str, run: str, headers: dict[str, str]) -> list[float]:
@@ -82,21 +98,22 @@ def memory_mib(pid: int) -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--answers", type=int, default=20_000)
+    parser.add_argument("--store", type=Path, help="the SQLite file to keep and to go on filling")
     parser.add_argument("--seconds", type=float, default=8.0, help="per row of the last table")
     parser.add_argument("--client", choices=("python", "wrk"), default="python", help="who the last annotators are")
     options = parser.parse_args()
     print(f"{machine()}\n")
     with tempfile.TemporaryDirectory(prefix="wp", dir=Path.cwd()) as folder:
-        store, new = Path(folder) / "large.db", Path(folder) / "new.db"
+        store, new = options.store or Path(folder) / "large.db", Path(folder) / "new.db"
         with serving(f"sqlite:///{store}") as (url, pid, learner, annotators):
             idle = memory_mib(pid)
-            run, asking, answering = fill(url, learner, annotators[:2], options.answers)
-            loads = sorted(page_loads(url, run, learner))
+            filled = fill(url, learner, annotators[:2], options.answers)
+            loads = sorted(page_loads(url, filled.run, learner))
             loaded = memory_mib(pid)
         p95 = loads[int(0.95 * (len(loads) - 1))]
-        times = [f"{asking:.0f}", f"{answering:.0f}"]
-        disk = sum(file.stat().st_size for file in Path(folder).glob("large.db*")) / 2**20
-        header = ["answers", "asking, s", "answering, s", "MiB on disk", "server's MiB before", "after"]
+        times = [filled.added, f"{filled.asking:.0f}", f"{filled.answering:.0f}"]
+        disk = store.stat().st_size / 2**20
+        header = ["answers", "added", "asking, s", "answering, s", "MiB on disk", "server's MiB before", "after"]
         header += ["run page, p50 ms", "p95 ms"]
         memory = [f"{idle:.0f}", f"{loaded:.0f}"]
         seen = [f"{statistics.median(loads):.0f}", f"{p95:.0f}"]
