@@ -4,8 +4,10 @@ import threading
 import time
 
 import pytest
+from sqlalchemy import update
 from tests.server.kit import Service, in_process, query
 
+from waypost_server.db.tables import assignments
 from waypost_server.leases import service as leases
 
 
@@ -114,6 +116,13 @@ def test_a_reloaded_page_finds_its_assignments(service: Service) -> None:
     (left,) = service.annotator.get("/assignments")["assignments"]
     assert (left["id"], left["token"]) == (held[1]["id"], held[1]["token"])
     assert service.user("otto", "annotator").get("/assignments")["assignments"] == []
+
+
+def test_a_reloaded_page_does_not_find_what_has_expired(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    service.annotator.lease()
+    service.db.write_now(lambda tx: tx.conn.execute(update(assignments).values(expires_at=tx.now - 1)))
+    assert service.annotator.get("/assignments")["assignments"] == []
 
 
 def test_a_renewed_lease_outlives_its_first_end_but_not_its_cap(database_url: str) -> None:
@@ -294,6 +303,22 @@ def test_nothing_is_leased_to_a_page_that_has_gone_whatever_was_on_its_way(servi
     service.annotator.leave("one")  # said twice, it is the same
     assert service.annotator.lease(tab="two")["query"]["ask"]["episode"] == 1
     assert service.user("otto", "annotator").lease(tab="one")["query"]["ask"]["episode"] == 2, "another's page"
+
+
+def test_a_page_that_has_gone_stays_gone_when_another_goes(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    service.annotator.leave("one")
+    service.annotator.leave("two")
+    assert service.annotator.lease(tab="one", expect=204) is None
+
+
+def test_a_page_that_goes_gives_back_nothing_of_another_annotators_page(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    otto = service.user("otto", "annotator")
+    held = otto.lease(tab="one")
+    service.annotator.leave("one")
+    assert service.annotator.lease(expect=204) is None
+    otto.answer(held)
 
 
 def test_a_page_that_goes_gives_back_what_it_took_back(service: Service) -> None:
