@@ -329,3 +329,12 @@ def test_a_page_that_goes_gives_back_what_it_took_back(service: Service) -> None
     service.annotator.retract(held, tab="one")
     service.annotator.leave("one")
     service.annotator.lease(tab="two")
+
+
+def test_who_is_sent_away_gives_back_their_own_queries_alone(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query(), query(ordinal=1))
+    otto = service.user("otto", "annotator")
+    theirs, ours = otto.lease(), service.annotator.lease()
+    service.admin.change(otto, active=False)
+    assert service.annotator.lease()["query"]["id"] == theirs["query"]["id"]
+    service.annotator.answer(ours)
