@@ -84,7 +84,7 @@ def test_an_answer_sent_twice_at_once_returns_the_last_query_that_was_leased_wit
     service.annotator.answer(held)
     user = service.annotator.get("/me")["id"]
     for one in asked[1:]:
-        service.db.write_now(lambda tx, id=one["id"]: leases.grant(tx, id, user, 60, after=held["id"]))
+        service.db.write_now(lambda tx, asked=one["id"]: leases.grant(tx, asked, user, 60, after=held["id"]))
     assert service.annotator.answer(held, next={})["next"]["query"]["id"] == asked[2]["id"]
 
 
