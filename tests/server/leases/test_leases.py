@@ -4,7 +4,7 @@ import threading
 import time
 
 import pytest
-from sqlalchemy import update
+from sqlalchemy import select, update
 from tests.server.kit import Service, in_process, query
 
 from waypost_server.db.tables import assignments
@@ -338,3 +338,12 @@ def test_who_is_sent_away_gives_back_their_own_queries_alone(service: Service) -
     service.admin.change(otto, active=False)
     assert service.annotator.lease()["query"]["id"] == theirs["query"]["id"]
     service.annotator.answer(ours)
+
+
+def test_how_a_lease_ended_is_kept_with_the_reason(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    service.annotator.release(service.annotator.lease(), reason="lunch")
+    service.annotator.release(service.annotator.lease(), skip=True, reason="too dark")
+    ended = select(assignments.c.state, assignments.c.reason).order_by(assignments.c.id)
+    rows = service.db.read_now(lambda tx: tx.conn.execute(ended).all())
+    assert [tuple(row) for row in rows] == [("released", "lunch"), ("skipped", "too dark")]
