@@ -76,7 +76,7 @@ GROUPS = {
         tests_at_import={"waypost_server.leases.active_time.x__start": ("tests/server/leases/test_active_time.py",)},
     ),
     "answers": Group(
-        ("answers/*.py", "runs/ledger.py"),
+        ("answers/batch.py", "answers/following.py", "answers/retraction.py", "answers/service.py", "runs/ledger.py"),
         (
             "answers/test_answers.py",
             "answers/test_batch.py",

@@ -110,6 +110,11 @@ def test_a_session_is_extended_once_a_tenth_of_it_is_over_and_never_past_its_end
     assert renewed(500) == (False, pytest.approx(500, abs=5)), "it was ended"
 
 
+def test_a_session_is_no_login_link(lite: Service) -> None:
+    session = opened(lite, id_of(lite.annotator))
+    assert lite.db.write_now(lambda tx: sessions.redeem(tx, session.secret, 60)) is None
+
+
 def test_a_users_valid_sessions_are_listed_oldest_first(lite: Service) -> None:
     user, other = id_of(lite.annotator), id_of(lite.viewer)
     held = [opened(lite, user) for _ in range(4)]
