@@ -14,7 +14,7 @@ WORKERS ?= 4
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help demo serve web docs docs-serve test test-web test-browsers lint lint-python lint-web bench soak clean
+.PHONY: help demo serve web docs docs-serve test test-web test-browsers lint lint-python lint-web bench soak mutants clean
 .DELETE_ON_ERROR:
 
 help:
@@ -25,6 +25,7 @@ help:
 	@echo "make lint    run only the checks: style, types, import contracts"
 	@echo "make bench   measure, and print tables"
 	@echo "make soak    try for 10 minutes to make stores lose answers, and print counts"
+	@echo "make mutants change the server's core in small ways, for an hour or more, and list what no test notices"
 	@echo "make web     build the web app"
 	@echo "make docs    build the documentation site into site/; make docs-serve shows it while you write"
 	@echo "make clean   remove everything that the other targets made, except stores and checkpoints"
@@ -87,9 +88,12 @@ bench: $(VENV)/.dev $(PEERS)/.installed
 soak: $(VENV)/.dev
 	@exec $(PYTHON) -m tests.soak $(ARGS)
 
+mutants: $(VENV)/.dev
+	@exec $(PYTHON) -m tests.mutants $(ARGS)
+
 clean:
 	rm -rf $(VENV) web/node_modules web/dist server/waypost_server/static site .mypy_cache .ruff_cache .pytest_cache .import_linter_cache \
-	  .hypothesis build dist
+	  .hypothesis .mutants build dist
 	find sdk server learner tests bench -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # --- installation; a stamp file says that a step is done for the current pyproject.toml or package-lock.json

@@ -5,7 +5,11 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from sqlalchemy import update
 from tests.server.kit import Json, Service, query
+
+from waypost_server.db.tables import assignments
+from waypost_server.leases import service as leases
 
 
 def answered(service: Service, run: str) -> int:
@@ -57,6 +61,31 @@ def test_an_answer_stays_when_waiting_for_the_next_query_fails(
         time.sleep(0.3)
         goes_wrong(service)
         _check_kept(service, run, waiting.result())
+
+
+def test_an_answer_sent_again_leases_anew_what_was_given_back_meanwhile(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query(), query(ordinal=1))
+    held = service.annotator.lease()
+    first = service.annotator.answer(held, next={})["next"]
+    assert service.annotator.answer(held, next={})["next"] == first
+    service.annotator.release(first)
+    second = service.annotator.answer(held, next={})["next"]
+    assert second["query"] == first["query"]
+    assert second["id"] != first["id"]
+    service.db.write_now(lambda tx: tx.conn.execute(update(assignments).values(expires_at=tx.now - 1)))
+    third = service.annotator.answer(held, next={})["next"]
+    assert third["id"] not in {first["id"], second["id"]}, "the lease had expired"
+    service.annotator.answer(third)
+
+
+def test_an_answer_sent_twice_at_once_returns_the_last_query_that_was_leased_with_it(service: Service) -> None:
+    asked = service.learner.ask(service.learner.create_run(), *(query(ordinal=ordinal) for ordinal in range(3)))
+    held = service.annotator.lease()
+    service.annotator.answer(held)
+    user = service.annotator.get("/me")["id"]
+    for one in asked[1:]:
+        service.db.write_now(lambda tx, asked=one["id"]: leases.grant(tx, asked, user, 60, after=held["id"]))
+    assert service.annotator.answer(held, next={})["next"]["query"]["id"] == asked[2]["id"]
 
 
 def _check_kept(service: Service, run: str, receipt: Json) -> None:

@@ -4,8 +4,10 @@ import threading
 import time
 
 import pytest
+from sqlalchemy import select, update
 from tests.server.kit import Service, in_process, query
 
+from waypost_server.db.tables import assignments
 from waypost_server.leases import service as leases
 
 
@@ -114,6 +116,13 @@ def test_a_reloaded_page_finds_its_assignments(service: Service) -> None:
     (left,) = service.annotator.get("/assignments")["assignments"]
     assert (left["id"], left["token"]) == (held[1]["id"], held[1]["token"])
     assert service.user("otto", "annotator").get("/assignments")["assignments"] == []
+
+
+def test_a_reloaded_page_does_not_find_what_has_expired(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    service.annotator.lease()
+    service.db.write_now(lambda tx: tx.conn.execute(update(assignments).values(expires_at=tx.now - 1)))
+    assert service.annotator.get("/assignments")["assignments"] == []
 
 
 def test_a_renewed_lease_outlives_its_first_end_but_not_its_cap(database_url: str) -> None:
@@ -296,6 +305,22 @@ def test_nothing_is_leased_to_a_page_that_has_gone_whatever_was_on_its_way(servi
     assert service.user("otto", "annotator").lease(tab="one")["query"]["ask"]["episode"] == 2, "another's page"
 
 
+def test_a_page_that_has_gone_stays_gone_when_another_goes(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    service.annotator.leave("one")
+    service.annotator.leave("two")
+    assert service.annotator.lease(tab="one", expect=204) is None
+
+
+def test_a_page_that_goes_gives_back_nothing_of_another_annotators_page(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    otto = service.user("otto", "annotator")
+    held = otto.lease(tab="one")
+    service.annotator.leave("one")
+    assert service.annotator.lease(expect=204) is None
+    otto.answer(held)
+
+
 def test_a_page_that_goes_gives_back_what_it_took_back(service: Service) -> None:
     run = service.learner.create_run()
     service.learner.ask(run, query())
@@ -304,3 +329,21 @@ def test_a_page_that_goes_gives_back_what_it_took_back(service: Service) -> None
     service.annotator.retract(held, tab="one")
     service.annotator.leave("one")
     service.annotator.lease(tab="two")
+
+
+def test_who_is_sent_away_gives_back_their_own_queries_alone(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query(), query(ordinal=1))
+    otto = service.user("otto", "annotator")
+    theirs, ours = otto.lease(), service.annotator.lease()
+    service.admin.change(otto, active=False)
+    assert service.annotator.lease()["query"]["id"] == theirs["query"]["id"]
+    service.annotator.answer(ours)
+
+
+def test_how_a_lease_ended_is_kept_with_the_reason(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    service.annotator.release(service.annotator.lease(), reason="lunch")
+    service.annotator.release(service.annotator.lease(), skip=True, reason="too dark")
+    ended = select(assignments.c.state, assignments.c.reason).order_by(assignments.c.id)
+    rows = service.db.read_now(lambda tx: tx.conn.execute(ended).all())
+    assert [tuple(row) for row in rows] == [("released", "lunch"), ("skipped", "too dark")]

@@ -83,6 +83,19 @@ def test_an_answer_cannot_be_taken_back_if_asking_again_would_not_fit(service: S
     assert (now["spent"], now["reserved"]) == (4, 6)
 
 
+def test_an_answer_can_be_taken_back_if_asking_again_just_fits(service: Service) -> None:
+    run = service.learner.create_run(budget=10)
+    service.learner.ask(run, query("hier_demo", max_actions=2, max_segments=1))
+    held = service.annotator.lease()
+    asked_for = service.learner.get(f"/runs/{run}")["reserved"]
+    units = service.annotator.answer(held)["units"]
+    service.learner.patch(run, budget=asked_for)
+    service.annotator.retract(held)
+    now = service.learner.get(f"/runs/{run}")
+    assert (now["spent"], now["reserved"]) == (0, asked_for)
+    assert 0 < units <= asked_for
+
+
 def test_a_budget_is_not_lowered_below_what_is_held(service: Service) -> None:
     run = service.learner.create_run(budget=10)
     service.learner.ask(run, query("label_lo"))
