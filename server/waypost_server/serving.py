@@ -142,7 +142,7 @@ def _collect_less() -> None:
     """Let the garbage collector leave alone what lives as long as the process, and run less often.
 
     By default it stops the server again and again to look through hundreds of thousands of objects of the app, which
-    took a fifth of its CPU time and made the slowest replies twice as slow (bench/RESULTS.md).
+    took a tenth of its CPU time and made the slowest replies twice as slow (bench/RESULTS.md).
     """
     gc.collect()
     gc.freeze()

@@ -87,7 +87,7 @@ GROUPS = {
             "leases/test_active_time.py::test_an_idle_gap_counts_up_to_the_cap_and_the_raw_seconds_go_on",
             "leases/test_active_time.py::test_a_retracted_answer_gives_its_active_seconds_back",
             "watch/test_metrics.py::test_what_was_done_is_counted_once_it_is_committed",
-            "watch/test_records.py::test_a_run_that_was_taken_in_tells_what_the_originalal_tells",
+            "watch/test_records.py::test_a_run_that_was_taken_in_tells_what_the_original_tells",
             "watch/test_tables.py::test_the_ledger_lists_charges_and_refunds_and_agrees_with_the_account",
             "webhooks/test_delivery.py::test_answers_and_states_of_runs_arrive_in_order_and_signed",
             "webhooks/test_delivery.py::test_gold_queries_and_late_answers_are_not_announced",

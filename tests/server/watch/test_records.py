@@ -92,7 +92,7 @@ def taken_in(url: str, records: list[Json]) -> wire.Run:
         )
 
 
-def test_a_run_that_was_taken_in_tells_what_the_originalal_tells(
+def test_a_run_that_was_taken_in_tells_what_the_original_tells(
     service: Service, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     url = f"sqlite:///{tmp_path / 'copy.db'}"
