@@ -169,7 +169,8 @@ def test_a_secret_that_is_refused_is_known_with_the_reason(lite: Service, state:
     hashed = credentials.hash_of(made.token)
     assert lite.db.read_now(lambda tx: credentials.find(tx, hashed, "api")) is None
     rejected = lite.db.read_now(lambda tx: credentials.why_rejected(tx, hashed, "api"))
-    assert rejected == credentials.Rejected(made.id, user, "abe", reason)  # type: ignore[arg-type]
+    assert rejected is not None
+    assert (rejected.credential, rejected.user, rejected.name, rejected.reason) == (made.id, user, "abe", reason)
     assert lite.db.read_now(lambda tx: credentials.why_rejected(tx, hashed, "session")) is None
     if state == "sent":
         with pytest.raises(errors.NotActive):
