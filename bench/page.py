@@ -22,7 +22,8 @@ from tests.browser.conftest import WEB, WIDE
 from tests.browser.kit import VOCABULARY, ask, chromium
 
 PAUSES = (0.0, 0.5)  # seconds between the display of a query and the key press that answers it
-FIRST_LOADS = 5
+FIRST_LOADS = 15
+OPENED = 1.5  # seconds that a new window needs for its own views before it loads a page: they share the cores
 # Label Studio Community, `label-studio start` on SQLite, with one user and a task with two choices: 15 answers by key
 # and one cold load in headless Chromium 156, on a machine with two busy cores. It sends JS and CSS uncompressed.
 LABEL_STUDIO = {"p50 ms": 501, "max ms": 567, "JS + CSS, kB gzipped": 2_080, "requests": 35, "first task, ms": 3_300}
@@ -99,9 +100,16 @@ def latencies(context: BrowserContext, run: str, n: int, pause: float) -> list[f
     return [float(one) for one in page.evaluate("window.latencies")]
 
 
+def opened(context: BrowserContext) -> Page:
+    """Open a window and wait until the browser has loaded what it shows beside the page."""
+    page = context.new_page()
+    time.sleep(OPENED)
+    return page
+
+
 def first_load(context: BrowserContext, run: str) -> tuple[float, list[Response]]:
     """Open the web app without a cache; return the milliseconds to the first query, and the responses until then."""
-    page, fetched = context.new_page(), list[Response]()
+    page, fetched = opened(context), list[Response]()
     page.on("response", lambda response: fetched.append(response))
     page.goto(f"/work?run={run}")
     wait_for_task(page)
@@ -110,7 +118,7 @@ def first_load(context: BrowserContext, run: str) -> tuple[float, list[Response]
 
 def least_load(context: BrowserContext) -> float:
     """Open a page of a few bytes from the same server; return the milliseconds until the browser has painted it."""
-    page = context.new_page()
+    page = opened(context)
     page.goto("/healthz")
     painted = page.wait_for_function("() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime")
     return float(str(painted.json_value()))

@@ -16,6 +16,7 @@ function once<T>(make: () => T): () => T {
 
 /** Return a number as text: 1,420. */
 export function number(value: number): string {
+  if (Number.isInteger(value) && value >= 0 && value < 1_000) return String(value); // needs no formatter
   return numbers().format(value);
 }
 
