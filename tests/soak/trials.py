@@ -14,6 +14,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -35,6 +36,7 @@ Trial = Callable[[Path, int], Counter[str]]
 
 N_ANNOTATORS = 4
 N_QUERIES = 400
+N_KILLED = 1_200  # queries, for servers that are killed
 N_RACED = 2_000
 N_SCHEDULES = 100
 SHORTEST, LONGEST = 0.1, 1.5  # seconds until a server is killed
@@ -69,18 +71,44 @@ def faults(folder: Path, seed: int) -> Counter[str]:
 
 
 def kills(url: str, folder: Path, seed: int) -> Counter[str]:
-    """Kill five servers, one after the other, while annotators answer."""
+    """Kill ten servers, one after the other, while annotators answer."""
     told, choose, counts = Told(), random.Random(seed), Counter[str]()
-    people = team(url, N_QUERIES, N_ANNOTATORS)
-    for number in range(5):
+    people = team(url, N_KILLED, N_ANNOTATORS)
+    for number in range(10):
         with serving(url, folder, {}) as server:
-            work = (server.address, people, told, lambda: 0, seed + number, N_QUERIES)
+            work = (server.address, people, told, lambda: 0, seed + number, N_KILLED)
             answering = threading.Thread(target=answer_all, args=work)
             answering.start()
             time.sleep(choose.uniform(SHORTEST, LONGEST))
             server.process.send_signal(signal.SIGKILL)
             server.process.wait()
             answering.join()
+        counts["kills"] += 1
+        counts += proof(url, told)
+    counts["other receipts"] += send_again(url, told)
+    return _told(told) + counts
+
+
+def kills_of_one_of_two(url: str, folder: Path, seed: int) -> Counter[str]:
+    """Ten times, kill one of two servers of a store while annotators answer; those of the killed one go to the other."""
+    told, choose, counts = Told(), random.Random(seed), Counter[str]()
+    people = team(url, N_KILLED, 2 * N_ANNOTATORS)
+    some = replace(people, annotators=people.annotators[:N_ANNOTATORS])
+    others = replace(people, annotators=people.annotators[N_ANNOTATORS:])
+    (second := folder / "second").mkdir()
+    for number in range(10):
+        how = (told, lambda: 0, seed + number)
+        with serving(url, folder, {}) as killed, serving(url, second, {}) as kept, ThreadPoolExecutor() as pool:
+            at_killed = pool.submit(answer_all, killed.address, some, *how, N_KILLED)
+            at_kept = pool.submit(answer_all, kept.address, others, *how, N_KILLED)
+            time.sleep(choose.uniform(SHORTEST, LONGEST))
+            killed.process.send_signal(signal.SIGKILL)
+            killed.process.wait()
+            at_killed.result()
+            answer_all(kept.address, some, *how, 5)
+            kept.process.send_signal(signal.SIGTERM)
+            kept.process.wait()
+            at_kept.result()
         counts["kills"] += 1
         counts += proof(url, told)
     counts["other receipts"] += send_again(url, told)
@@ -153,6 +181,7 @@ def every(cluster: Cluster | None) -> dict[str, Trial]:
     if cluster is not None:
         for name, trial in on_both.items():
             trials[f"{name}, PostgreSQL"] = _on(trial, lambda _: cluster.create())
+        trials["kills of one of two, PostgreSQL"] = _on(kills_of_one_of_two, lambda _: cluster.create())
     return trials
 
 
