@@ -22,7 +22,7 @@ from typing import Any
 
 import httpx2
 from bench.assignments import HEADER, VOCABULARY, Annotator, machine, query, raw_commits, row, serving
-from bench.page import table
+from bench.page import opened, table
 from tests.browser.kit import chromium
 
 AT_ONCE = 1_000  # queries that are asked, then answered
@@ -80,7 +80,7 @@ def page_loads(url: str, run: str, headers: dict[str, str]) -> list[float]:
     with chromium() as browser:
         for _ in range(VIEWS):
             context = browser.new_context(base_url=url, extra_http_headers=headers)
-            page = context.new_page()
+            page = opened(context)
             start = time.perf_counter()
             page.goto(f"/runs/{run}")
             page.get_by_role("slider", name="Success on unseen instances").locator("svg").wait_for()

@@ -90,7 +90,7 @@ def kills(url: str, folder: Path, seed: int) -> Counter[str]:
 
 
 def kills_of_one_of_two(url: str, folder: Path, seed: int) -> Counter[str]:
-    """Ten times, kill one of two servers of a store while annotators answer; those of the killed one go to the other."""
+    """Ten times, kill one of two servers while annotators answer; those of the killed one go on at the other."""
     told, choose, counts = Told(), random.Random(seed), Counter[str]()
     people = team(url, N_KILLED, 2 * N_ANNOTATORS)
     some = replace(people, annotators=people.annotators[:N_ANNOTATORS])

@@ -9,7 +9,7 @@ from typing import Any
 
 from alembic.autogenerate import compare_metadata
 from alembic.runtime.migration import MigrationContext
-from sqlalchemy import Column, Connection, Select, and_, case, create_engine, exists, func, or_, select, text
+from sqlalchemy import Column, Connection, Select, and_, case, create_engine, exists, func, or_, select, text, union_all
 
 from waypost_server.db import audit
 from waypost_server.db.engine import parse
@@ -26,6 +26,7 @@ from waypost_server.db.tables import (
     gold,
     gold_showings,
     ledger,
+    ledger_sums,
     metadata,
     presence,
     queries,
@@ -84,6 +85,18 @@ _uploaded = (
     .correlate(users)
     .scalar_subquery()
 )
+_keys = ("run_id", "episode", "kind")
+_amounts = ("units", "lo_units", "seconds", "active_seconds")
+_booked_less_summed = union_all(
+    select(
+        *(ledger.c[name] for name in (*_keys, *_amounts)),
+        case((ledger.c.entry == "charge", 1), else_=-1).label("queries"),
+    ),
+    select(
+        *(ledger_sums.c[name] for name in _keys),
+        *((-ledger_sums.c[name]).label(name) for name in (*_amounts, "queries")),
+    ),
+).subquery()
 _own = runs.alias("own")
 _shadow = runs.alias("shadow")
 
@@ -92,6 +105,20 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         "What a run has spent is what the ledger says.",
         "run",
         select(runs.c.id).where(runs.c.spent != _units(ledger.c.run_id == runs.c.id)),
+    ),
+    (
+        "The sums of a run's ledger are those of its entries.",
+        "run",
+        select(_booked_less_summed.c.run_id.label("id"))
+        .distinct()
+        .group_by(*(_booked_less_summed.c[name] for name in _keys))
+        .having(
+            or_(
+                *(func.sum(_booked_less_summed.c[name]) != 0 for name in ("queries", "units", "lo_units")),
+                # Seconds are fractions, whose sums depend on the order a little.
+                *(func.abs(func.sum(_booked_less_summed.c[name])) > 0.001 for name in ("seconds", "active_seconds")),
+            )
+        ),
     ),
     (
         "What a run has spent is the cost of the answers that count.",

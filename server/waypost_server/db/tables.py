@@ -264,6 +264,21 @@ ledger = Table(
     sqlite_autoincrement=True,
 )
 
+# The sums of the ledger, of which a trigger adds up each entry. So nobody waits until a million entries are read.
+ledger_sums = Table(
+    "ledger_sums",
+    metadata,
+    Column("run_id", Text, ForeignKey("runs.id"), primary_key=True),
+    Column("episode", Integer, primary_key=True),
+    Column("kind", Text, primary_key=True),
+    Column("queries", Integer, nullable=False),  # charges less refunds
+    Column("units", BigInteger, nullable=False),
+    Column("lo_units", BigInteger, nullable=False),
+    Column("seconds", Float, nullable=False),
+    Column("active_seconds", Float, nullable=False),
+    sqlite_with_rowid=False,
+)
+
 # Append-only (enforced by a trigger): what reviewers wrote about queries. They go only with the
 # run or with the data of their author.
 comments = Table(

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from itertools import accumulate
 from typing import get_args
 
-from sqlalchemy import func, select
+from sqlalchemy import select
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.tables import episodes, ledger
+from waypost_server.db.tables import episodes, ledger_sums
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import service as runs
 
@@ -69,23 +69,13 @@ def _reached(results: Sequence[wire.EpisodeResult]) -> dict[str, list[float]]:
 
 
 def _ledger(tx: Tx, run: str) -> list[Spent]:
-    signed = func.sum(ledger.c.units)
-    charges = func.count().filter(ledger.c.entry == "charge") - func.count().filter(ledger.c.entry == "refund")
+    sums = ledger_sums.c
     rows = tx.conn.execute(
-        select(
-            ledger.c.episode,
-            ledger.c.kind,
-            charges,
-            signed,
-            func.sum(ledger.c.lo_units),
-            func.sum(ledger.c.seconds),
-            func.sum(ledger.c.active_seconds),
-        )
-        .where(ledger.c.run_id == run)
-        .group_by(ledger.c.episode, ledger.c.kind)
-        .order_by(ledger.c.episode)
+        select(sums.episode, sums.kind, sums.queries, sums.units, sums.lo_units, sums.seconds, sums.active_seconds)
+        .where(sums.run_id == run)
+        .order_by(sums.episode, sums.kind)
     )
-    return [Spent(row[0], row[1], row[2], int(row[3]), int(row[4]), row[5], row[6]) for row in rows]
+    return [Spent(*row) for row in rows]
 
 
 def tests_of(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:

@@ -11,7 +11,7 @@ from waypost import wire
 from waypost.prices import MICRO, to_units
 from waypost_server.db.functions import json_text
 from waypost_server.db.prepared import Record
-from waypost_server.db.tables import answers, assignments, ledger, runs
+from waypost_server.db.tables import answers, assignments, ledger, ledger_sums, runs
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import service
 from waypost_server.runs.curves import cumulative, first_at, tests_of
@@ -86,10 +86,10 @@ class _Told:
 def _read(tx: Tx, run: str) -> _Told:
     reported, outcomes = tests_of(tx, run)
     amounts = tx.conn.execute(
-        select(ledger.c.episode, func.sum(ledger.c.units))
-        .where(ledger.c.run_id == run)
-        .group_by(ledger.c.episode)
-        .order_by(ledger.c.episode)
+        select(ledger_sums.c.episode, func.sum(ledger_sums.c.units))
+        .where(ledger_sums.c.run_id == run)
+        .group_by(ledger_sums.c.episode)
+        .order_by(ledger_sums.c.episode)
     )
     costs = cumulative(reported, ((row[0], int(row[1])) for row in amounts))
     return _Told(reported, outcomes, [to_units(int(units)) for units in costs])

@@ -74,8 +74,9 @@ def release(tx: Tx, run: str, amount: int) -> None:
 
 def charge(tx: Tx, entry: Entry, reserved: int) -> None:
     """Charge an answer and release the units reserved for it."""
-    _write(tx, "charge", entry, 1)
+    # The account first, as in a refund: its row is locked before the sums that the ledger's trigger changes.
     _change(tx, entry.run, entry.cost.units, -reserved)
+    _write(tx, "charge", entry, 1)
 
 
 def refund(tx: Tx, entry: Entry, account: Account, reserved: int) -> None:

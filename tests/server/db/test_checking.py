@@ -9,6 +9,7 @@ from tests.server.kit import Service, in_process, query
 from typer.testing import CliRunner
 
 from waypost_server.cli.main import app
+from waypost_server.db.engine import migrate, parse
 
 
 def use(service: Service) -> None:
@@ -57,7 +58,24 @@ def check(url: str, status: int = 0) -> list[dict[str, object]]:
 
 
 def test_a_store_that_was_used_in_every_way_is_sound(used: str) -> None:
-    assert [result["n_faults"] for result in check(used)] == [0] * (22 if used.startswith("sqlite") else 20)
+    assert [result["n_faults"] for result in check(used)] == [0] * (23 if used.startswith("sqlite") else 21)
+
+
+def test_a_store_from_before_the_sums_of_the_ledger_gets_them_and_keeps_them(used: str) -> None:
+    engine = create_engine(parse(used))
+    with engine.begin() as conn:
+        on_postgresql = conn.dialect.name == "postgresql"
+        conn.execute(text("DROP TRIGGER ledger_summed" + (" ON ledger" if on_postgresql else "")))
+        if on_postgresql:
+            conn.execute(text("DROP FUNCTION add_to_ledger_sums"))
+        conn.execute(text("DROP TABLE ledger_sums"))
+        conn.execute(text("UPDATE alembic_version SET version_num = '0017'"))
+    engine.dispose()
+    migrate(used)
+    check(used)
+    with in_process(used) as service:
+        use(service)
+    check(used)
 
 
 def test_it_says_what_holds_and_what_does_not(used: str) -> None:
@@ -98,6 +116,9 @@ def unguard(conn: Connection) -> None:
 ONE = "(SELECT min(id) FROM queries WHERE state = 'answered' AND episode = 0)"
 DAMAGES = {
     "UPDATE runs SET spent = spent - 1 WHERE spent > 0": "What a run has spent is the cost of the answers that count.",
+    "UPDATE ledger_sums SET units = units + 1 WHERE units > 0": "The sums of a run's ledger are those of its entries.",
+    "UPDATE ledger_sums SET seconds = seconds + 1": "The sums of a run's ledger are those of its entries.",
+    "DELETE FROM ledger_sums": "The sums of a run's ledger are those of its entries.",
     "UPDATE runs SET budget = 0": "A run has spent and reserved no more than its budget.",
     "UPDATE runs SET reserved = reserved + 1": "What a run has reserved is for its queries without an answer.",
     "UPDATE ledger SET units = units + 1 WHERE entry = 'charge'": "An answer is charged once",

@@ -55,7 +55,7 @@ def test_opening_a_store_again_changes_nothing(empty_url: str) -> None:
     Database(empty_url).close()
     db = Database(empty_url)
     assert db.read_now(lambda tx: tx.conn.execute(text("SELECT version_num FROM alembic_version")).scalars().all()) == [
-        "0017"
+        "0018"
     ]
     db.close()
 
