@@ -19,6 +19,7 @@ from waypost_server.auth.access import ACCESS
 from waypost_server.auth.attempts import LoginAttempts
 from waypost_server.auth.lookup import CredentialCache
 from waypost_server.db.engine import Database
+from waypost_server.db.transaction import Tx
 from waypost_server.db.wakeups import Hub
 from waypost_server.errors import StorageFailed
 from waypost_server.gold import practice_routes as practice
@@ -30,7 +31,7 @@ from waypost_server.http.context import VERSION, Context
 from waypost_server.http.guard import Guard
 from waypost_server.http.traffic import Traffic
 from waypost_server.leases import routes as leases
-from waypost_server.leases.service import expire
+from waypost_server.leases.service import end_future, expire
 from waypost_server.play import routes as play
 from waypost_server.play.relay import Relay
 from waypost_server.queries import frame_routes as frames
@@ -128,11 +129,16 @@ async def _lifespan(app: FastAPI, settings: Settings, traffic: Traffic) -> Async
         await asyncio.to_thread(tracing.flush)
 
 
+def _reap(tx: Tx) -> None:
+    expire(tx)
+    end_future(tx)
+
+
 async def _end_expired_leases(context: Context) -> None:
     """End expired leases forever, so that the queries of an annotator who vanished return to the queue."""
     while True:
         await asyncio.sleep(context.settings.reap_seconds)
         try:
-            await context.db.write(expire)
+            await context.db.write(_reap)
         except StorageFailed as error:
             log.warning("Expired leases could not be ended: %s", error)

@@ -16,7 +16,7 @@ import typer
 from tests.conftest import Cluster, postgresql_binaries
 from tests.soak import trials
 
-TRIED = ("kills", "power losses", "faults", "backups restored", "link cuts", "late answers", "schedules")
+TRIED = ("kills", "power losses", "faults", "backups restored", "link cuts", "late answers", "clock steps", "schedules")
 DONE = ("rounds", "acknowledged", "refused")
 WRONG = ("lost", "charged twice", "other faults")
 

@@ -18,11 +18,12 @@ from dataclasses import replace
 from pathlib import Path
 from urllib.parse import urlsplit
 
+import pytest
 from tests.conftest import Cluster
 from tests.server.answers.model import run_schedules
 from tests.server.db.racing import race
 from tests.server.disk.disk import Call, File
-from tests.server.disk.load import Answer, Told, answer_all, proof, send_again, team
+from tests.server.disk.load import Answer, Told, answer_all, proof, send_again, take_and_vanish, team
 from tests.server.disk.recording import Recording
 from tests.server.kit import in_process
 from tests.server.processes import serving
@@ -40,6 +41,9 @@ N_KILLED = 1_200  # queries, for servers that are killed
 N_RACED = 2_000
 N_SCHEDULES = 100
 SHORTEST, LONGEST = 0.1, 1.5  # seconds until a server is killed
+LEASE_SECONDS = 2
+CLOCKS = ("+1h", "-1h", "+1d", "-1d", "+0", "+2h", "-2h", "+90d", "-90d", "+3s", "-3s", "+0")  # beside the true time
+EARLIEST = "-91d"
 CUT_RATE = 0.1  # of the requests
 
 
@@ -148,6 +152,32 @@ def cuts(url: str, folder: Path, seed: int) -> Counter[str]:
     return _told(told) + counts + proof(url, told) + Counter({"other receipts": send_again(url, told)})
 
 
+def clocks(url: str, folder: Path, seed: int) -> Counter[str]:
+    """Set the clock of a server and of its store forward and back while annotators answer; then empty the queue."""
+    library = next(Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"), None)
+    if library is None:
+        pytest.skip("there is no libfaketime on this machine (Debian: faketime)")
+    told, choose, clock = Told(), random.Random(seed), folder / "clock"
+    clock.write_text("+0")
+    faked = {"LD_PRELOAD": str(library), "FAKETIME_TIMESTAMP_FILE": str(clock), "FAKETIME_NO_CACHE": "1"}
+    steps = [*choose.sample(CLOCKS, len(CLOCKS)), EARLIEST]  # so that leases of the future are left at the end
+    people = team(url, N_QUERIES, N_ANNOTATORS)
+    settings = {"lease_seconds": str(LEASE_SECONDS)}
+    with serving(url, folder, settings, variables=faked | {"FAKETIME_DONT_FAKE_MONOTONIC": "1"}) as server:
+        work = (server.address, people, told, lambda: 0, seed, N_QUERIES)
+        answering = threading.Thread(target=answer_all, args=work)
+        answering.start()
+        for step in steps:
+            time.sleep(choose.uniform(0.1, 0.5))
+            take_and_vanish(server.address, people)
+            clock.write_text(step)
+        answering.join()
+        time.sleep(LEASE_SECONDS + 2)  # leases end after two seconds, and the server looks once a second
+        answer_all(*work)
+    counted = len({one.assignment for one in told.acknowledged()})
+    return _told(told) + Counter({"clock steps": len(steps), "not answered": N_QUERIES - counted}) + proof(url, told)
+
+
 def races(url: str, folder: Path, seed: int) -> Counter[str]:
     """Let 64 annotators empty a queue; every third answers after its lease now and then."""
     raced = asyncio.run(race(url, 64, N_RACED, seed))
@@ -175,6 +205,7 @@ def schedules(url: str, folder: Path, seed: int) -> Counter[str]:
 def every(cluster: Cluster | None) -> dict[str, Trial]:
     """Return all trials by name; without a cluster, those of SQLite."""
     trials: dict[str, Trial] = {"power": power, "faults": faults, "backups": backups}
+    trials["clocks"] = _on(clocks, lambda folder: f"sqlite:///{folder / 'store.db'}")
     on_both = {"kills": kills, "cuts": cuts, "races": races, "schedules": schedules}
     for name, trial in on_both.items():
         trials[name] = _on(trial, lambda folder: f"sqlite:///{folder / 'store.db'}")

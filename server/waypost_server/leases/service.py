@@ -3,7 +3,7 @@
 import secrets
 from collections.abc import Sequence
 
-from sqlalchemy import bindparam, insert, select, update
+from sqlalchemy import bindparam, delete, insert, select, update
 from sqlalchemy.sql.elements import ColumnElement
 
 from waypost import wire
@@ -11,6 +11,7 @@ from waypost_server.auth.access import ACCESS, check_still
 from waypost_server.db import wakeups
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, assignments, queries, skips
+from waypost_server.db.tables import presence as present
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import schedule, second
 from waypost_server.leases import active_time, closed_tabs, presence, selection
@@ -18,6 +19,8 @@ from waypost_server.leases.assignments import find_live, view
 from waypost_server.leases.request import LeaseRequest
 from waypost_server.runs import service as runs
 from waypost_server.settings import Settings
+
+SLEW_SECONDS = 5.0  # by how much a clock may go back without an effect on leases
 
 _SET_LEASED = Prepared(update(queries).where(queries.c.id == bindparam("query")).values(state="leased"))
 _INSERT = Prepared(
@@ -134,6 +137,16 @@ def expire(tx: Tx) -> int:
     return len(ids)
 
 
+def end_future(tx: Tx) -> None:
+    """End the leases that begin in the future, and forget who asked for queries then: the clock was set back.
+
+    Until the clock gets there again, they would not expire, and these annotators would count as at work.
+    """
+    future = tx.now + SLEW_SECONDS
+    _end_where(tx, "expired", assignments.c.leased_at > future)
+    tx.conn.execute(delete(present).where(present.c.asked_at > future))
+
+
 def renew(tx: Tx, assignment: int, user: int, body: wire.Renew, settings: Settings) -> wire.Renewal:
     """Extend a live lease to its full length from now, but not past the cap.
 
@@ -166,15 +179,16 @@ def release(tx: Tx, assignment: int, user: int, body: wire.Release, settings: Se
 def close_tab(tx: Tx, user: int, body: wire.Leave) -> None:
     """Release what a browser tab holds, except assignments listed in `keep`. The tab gets no new leases."""
     closed_tabs.record(tx, user, body.tab)
-    _release_where(tx, assignments.c.user_id == user, assignments.c.tab == body.tab, assignments.c.id.not_in(body.keep))
+    of_tab = (assignments.c.user_id == user, assignments.c.tab == body.tab)
+    _end_where(tx, "released", *of_tab, assignments.c.id.not_in(body.keep))
 
 
 def release_all(tx: Tx, user: int) -> None:
     """Release all leases of a user who may no longer answer."""
-    _release_where(tx, assignments.c.user_id == user)
+    _end_where(tx, "released", assignments.c.user_id == user)
 
 
-def _release_where(tx: Tx, *conditions: ColumnElement[bool]) -> None:
+def _end_where(tx: Tx, ending: str, *conditions: ColumnElement[bool]) -> None:
     locked = (
         select(queries.c.id)
         .join(assignments, assignments.c.query_id == queries.c.id)
@@ -183,7 +197,7 @@ def _release_where(tx: Tx, *conditions: ColumnElement[bool]) -> None:
     )
     ids = tx.conn.execute(locked).scalars().all()
     if ids:
-        _reopen(tx, ids, "released", conditions)
+        _reopen(tx, ids, ending, conditions)
 
 
 def _reopen(

@@ -122,6 +122,12 @@ def answer_all(address: str, team: Team, told: Told, position: Callable[[], int]
             administrator.join()
 
 
+def take_and_vanish(address: str, team: Team) -> None:
+    """Lease a query as an annotator who never answers it."""
+    with _client(address, team.admin) as client:
+        client.post("/assignments", json={"run": team.run}).raise_for_status()
+
+
 def _client(address: str, headers: dict[str, str]) -> httpx2.Client:
     return httpx2.Client(base_url=address + API, headers=headers, timeout=30)
 
