@@ -211,7 +211,8 @@ def row(
     at_least = "≥ " if with_wrk and len(cycles) == backlog else ""  # wrk goes on when no query is left
     return (
         f"| {name} | {mode} | {n} | {backlog} | {at_least}{rate:.0f} | {limit / rate:.0f} | "
-        f"{statistics.median(times):.1f} | {p99:.1f} | {times[-1]:.0f} | {1_000 * cpu / len(times):.2f} | {duplicates}/{len(answered)} |"
+        f"{statistics.median(times):.1f} | {p99:.1f} | {times[-1]:.0f} | {1_000 * cpu / len(times):.2f} | "
+        f"{duplicates}/{len(answered)} |"
     )
 
 
