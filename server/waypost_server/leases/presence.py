@@ -5,7 +5,7 @@ An annotator is at work if they asked for a query recently or hold a lease. Requ
 
 from collections.abc import Sequence
 
-from sqlalchemy import and_, bindparam, exists, func, literal, or_, select
+from sqlalchemy import and_, bindparam, delete, exists, func, literal, or_, select
 from sqlalchemy.sql.elements import ColumnElement
 
 from waypost import wire
@@ -35,6 +35,11 @@ def record(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None
     if known and (known.run_id, known.kinds) == (run, names) and known.asked_at > tx.now - REFRESH_SECONDS:
         return
     _RECORD.run(tx.conn, {"user_id": user, "run_id": run, "kinds": names, "asked_at": tx.now})
+
+
+def forget(tx: Tx, after: float) -> None:
+    """Forget who asked for a query later than this time."""
+    tx.conn.execute(delete(presence).where(presence.c.asked_at > after))
 
 
 # The annotator asked after `since`, or holds a lease at `now` that was requested without `defer`.

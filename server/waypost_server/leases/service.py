@@ -3,7 +3,7 @@
 import secrets
 from collections.abc import Sequence
 
-from sqlalchemy import bindparam, delete, insert, select, update
+from sqlalchemy import bindparam, insert, select, update
 from sqlalchemy.sql.elements import ColumnElement
 
 from waypost import wire
@@ -11,7 +11,6 @@ from waypost_server.auth.access import ACCESS, check_still
 from waypost_server.db import wakeups
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, assignments, queries, skips
-from waypost_server.db.tables import presence as present
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import schedule, second
 from waypost_server.leases import active_time, closed_tabs, presence, selection
@@ -144,7 +143,7 @@ def end_future(tx: Tx) -> None:
     """
     future = tx.now + SLEW_SECONDS
     _end_where(tx, "expired", assignments.c.leased_at > future)
-    tx.conn.execute(delete(present).where(present.c.asked_at > future))
+    presence.forget(tx, future)
 
 
 def renew(tx: Tx, assignment: int, user: int, body: wire.Renew, settings: Settings) -> wire.Renewal:
