@@ -1,13 +1,14 @@
 """What the server's tests are written with: a service with one user per role, and short ways to call it."""
 
+import asyncio
 import base64
 import hashlib
 import threading
 import zlib
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
-from typing import Any
+from contextlib import AsyncExitStack, contextmanager
+from typing import Any, Protocol
 
 import httpx2
 from alembic import command
@@ -56,10 +57,16 @@ def right_answer(ask: Json) -> Json:
     return {"kind": kind, "verdict": "pass"}
 
 
+class Requests(Protocol):
+    """What a caller needs of an HTTP client."""
+
+    def request(self, method: str, url: str, **more: Any) -> httpx2.Response: ...
+
+
 class Caller:
     """One user's way to the API."""
 
-    def __init__(self, client: httpx2.Client, name: str, token: str) -> None:
+    def __init__(self, client: Requests, name: str, token: str) -> None:
         self.client = client
         self.name = name
         self.token = token
@@ -131,7 +138,7 @@ class Caller:
 class Service:
     """A server and its users."""
 
-    def __init__(self, client: httpx2.Client, db: Database) -> None:
+    def __init__(self, client: Requests, db: Database) -> None:
         self.client = client
         self.db = db
         self.admin = self.user("ann", "admin")
@@ -156,6 +163,25 @@ def in_process(url: str, **settings: Any) -> Iterator[Service]:
     app = create_app(Settings(database=url, hosts=("testserver",), **settings))
     with TestClient(app) as client:
         yield Service(client, app.state.context.db)
+
+
+@contextmanager
+def in_one_thread(url: str, **settings: Any) -> Iterator[Service]:
+    """Run the app in its caller's thread: half the CPU of `in_process`, but its own tasks stand still between calls."""
+    app = create_app(Settings(database=url, hosts=("testserver",), **settings))
+    with asyncio.Runner() as runner:
+        client = httpx2.AsyncClient(transport=httpx2.ASGITransport(app), base_url="http://testserver")
+
+        class InLoop:
+            def request(self, method: str, url: str, **more: Any) -> httpx2.Response:
+                return runner.get_loop().run_until_complete(client.request(method, url, **more))
+
+        stack = AsyncExitStack()
+        runner.run(stack.enter_async_context(app.router.lifespan_context(app)))
+        try:
+            yield Service(InLoop(), app.state.context.db)
+        finally:
+            runner.run(stack.aclose())
 
 
 def make_older_store(url: str, schema_then: str = "0006") -> None:

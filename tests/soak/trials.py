@@ -25,7 +25,7 @@ from tests.server.db.racing import race
 from tests.server.disk.disk import Call, File
 from tests.server.disk.load import Answer, Told, answer_all, proof, send_again, take_and_vanish, team
 from tests.server.disk.recording import Recording
-from tests.server.kit import in_process
+from tests.server.kit import in_one_thread
 from tests.server.processes import serving
 from tests.soak.link import Link
 
@@ -197,7 +197,7 @@ def races(url: str, folder: Path, seed: int) -> Counter[str]:
 
 def schedules(url: str, folder: Path, seed: int) -> Counter[str]:
     """Run sequences of calls, and compare the server with the model after each call."""
-    with in_process(url, follow_up_seconds=0) as service:
+    with in_one_thread(url, follow_up_seconds=0) as service:
         run_schedules(service, N_SCHEDULES, 50, seed)
     return Counter({"schedules": N_SCHEDULES})
 
