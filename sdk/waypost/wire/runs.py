@@ -217,6 +217,7 @@ class Costs(Message):
     by_kind: dict[Kind, CostOfKind]
     reserved: float = Field(description="The units reserved for unanswered queries.")
     budget: float | None = Field(description="The highest total cost of the run, in units; null for no limit.")
+    tests: int = Field(description="The number of test rollouts. A level counts as reached from the 100th on.")
     first_at: dict[str, Milestone | None] = Field(
         description='By success level ("0.8", "0.9", "0.95", "0.99"): when it was first reached; null if it was not.'
     )

@@ -8,6 +8,9 @@ from pathlib import Path
 from fastapi import FastAPI, HTTPException, Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
 
+from waypost_server.auth.permissions import cookie_of
+from waypost_server.http.ahead import ahead
+
 MISSING = (
     "Waypost is running, but its web app is not built; `make web` builds it. The API is at /api/v1; "
     "/api/docs describes it.\n"
@@ -47,7 +50,12 @@ def install(app: FastAPI, folder: Path | None) -> None:
             return FileResponse(found, headers=headers)
         if path.startswith("assets/"):
             raise HTTPException(404, f"There is no {request.url.path}.")
-        return FileResponse(root / "index.html", headers={"Cache-Control": "no-cache"})
+        headers = {"Cache-Control": "no-cache"}
+        if hints := ahead(
+            root, path, known="authorization" in request.headers or cookie_of(request) in request.cookies
+        ):
+            headers["Link"] = hints
+        return FileResponse(root / "index.html", headers=headers)
 
 
 @cache

@@ -1,13 +1,13 @@
 """Curves and costs of a run, computed from the reported episodes and the ledger alone."""
 
 from bisect import bisect_right
-from collections import defaultdict, deque
+from collections import deque
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import accumulate
-from typing import get_args
+from typing import Any, NamedTuple, get_args
 
-from sqlalchemy import select
+from pydantic_core import from_json
+from sqlalchemy import func, select
 
 from waypost import wire
 from waypost.prices import to_units
@@ -15,11 +15,13 @@ from waypost_server.db.tables import episodes, ledger_sums
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import service as runs
 
+Result = dict[str, Any]
+"""An EpisodeResult as it was stored after it had been checked; checking all again would take most of the time."""
+
 LEVELS: tuple[wire.SuccessLevel, ...] = get_args(wire.SuccessLevel)
 
 
-@dataclass(frozen=True)
-class Spent:
+class Spent(NamedTuple):
     """The ledger's sum for one kind of query in one episode; amounts are micro-units."""
 
     episode: int
@@ -44,27 +46,29 @@ def trailing(outcomes: Sequence[bool | None], window: int = runs.TRAILING) -> li
     return rates
 
 
-def _rewards(results: Sequence[wire.EpisodeResult]) -> list[float | None]:
-    """Return the mean reward of the trailing training rollouts at each episode. Demonstrations do not count."""
-    recent: deque[float] = deque(maxlen=runs.TRAILING)
+def _rewards(results: Sequence[Result], rows: Sequence[int]) -> list[float | None]:
+    """Return the mean reward of the trailing training rollouts at these rows. Demonstrations do not count."""
+    rewards = [result.get("reward", 0) for result in results if not result["warm_start"]]
+    trained = list(accumulate(not result["warm_start"] for result in results))
     means: list[float | None] = []
-    for result in results:
-        if not result.warm_start:
-            recent.append(result.reward)
+    for row in rows:
+        recent = rewards[max(trained[row] - runs.TRAILING, 0) : trained[row]]
         means.append(sum(recent) / len(recent) if recent else None)
     return means
 
 
-def _reached(results: Sequence[wire.EpisodeResult]) -> dict[str, list[float]]:
-    """Return how many of the trailing attempts at each subgoal reached it, at each episode."""
-    subgoals = sorted({attempt.subgoal for result in results for attempt in result.attempts})
+def _reached(results: Sequence[Result], rows: range) -> dict[str, list[float]]:
+    """Return how many of the trailing attempts at each subgoal reached it, at these rows."""
+    attempts = [result.get("attempts", []) for result in results]
+    subgoals = sorted({attempt["subgoal"] for episode in attempts for attempt in episode})
     recent = {name: deque([False] * runs.TRAILING, runs.TRAILING) for name in subgoals}
     rates: dict[str, list[float]] = {name: [] for name in subgoals}
-    for result in results:
-        for attempt in result.attempts:
-            recent[attempt.subgoal].append(attempt.reached)
-        for name, outcomes in recent.items():
-            rates[name].append(sum(outcomes) / runs.TRAILING)
+    for row, episode in enumerate(attempts):
+        for attempt in episode:
+            recent[attempt["subgoal"]].append(attempt["reached"])
+        if row in rows:
+            for name, outcomes in recent.items():
+                rates[name].append(sum(outcomes) / runs.TRAILING)
     return rates
 
 
@@ -75,7 +79,7 @@ def _ledger(tx: Tx, run: str) -> list[Spent]:
         .where(sums.run_id == run)
         .order_by(sums.episode, sums.kind)
     )
-    return [Spent(*row) for row in rows]
+    return list(map(Spent._make, rows.all()))
 
 
 def tests_of(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:
@@ -83,54 +87,72 @@ def tests_of(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:
     rows = tx.conn.execute(
         select(episodes.c.episode, episodes.c.test_success).where(episodes.c.run_id == run).order_by(episodes.c.episode)
     ).all()
-    return [row.episode for row in rows], [row.test_success for row in rows]
+    return [episode for episode, _ in rows], [outcome for _, outcome in rows]
 
 
-def _results(tx: Tx, run: str) -> list[wire.EpisodeResult]:
+def _results(tx: Tx, run: str) -> list[Result]:
     """Return the complete results of the reported episodes."""
     rows = tx.conn.execute(select(episodes.c.result).where(episodes.c.run_id == run).order_by(episodes.c.episode))
-    return [wire.EpisodeResult.model_validate_json(row.result) for row in rows]
+    return list(from_json(f"[{','.join(rows.scalars())}]"))
 
 
-def cumulative(reported: Sequence[int], amounts: Iterable[tuple[int, float]]) -> list[float]:
-    """Return the running sum of (episode, amount) pairs at each reported episode. The pairs are in episode order."""
-    sums: list[float] = []
-    pending = iter([*amounts, (2**63, 0)])
-    episode, amount = next(pending)
-    total: float = 0
-    for row in reported:
-        while episode <= row:
-            total += amount
-            episode, amount = next(pending)
-        sums.append(total)
-    return sums
+def counting(paid: Sequence[int], reported: Sequence[int]) -> list[int]:
+    """Return how many of the amounts that were paid in these episodes, in order, count at each reported episode."""
+    return [bisect_right(paid, episode) for episode in reported]
 
 
-def curves(tx: Tx, run: str, after: int = -1) -> wire.Curves:
-    """Return success and cumulative cost, one row per reported episode after `after`."""
+def cumulative(counts: Sequence[int], amounts: Iterable[float]) -> list[float]:
+    """Return the sums of the first so many amounts."""
+    sums = [0.0, *accumulate(amounts)]
+    return [sums[count] for count in counts]
+
+
+def curves(tx: Tx, run: str, after: int = -1, most: int | None = None) -> wire.Curves:
+    """Return success and cumulative cost, one row per reported episode after `after`.
+
+    Args:
+        tx: the transaction.
+        run: the run.
+        after: an episode; the rows are those of later ones.
+        most: with more rows than this, only the last one and every n-th before it, for the smallest n that fits.
+
+    Raises:
+        NotFound: there is no such run.
+    """
     runs.find(tx, run)
     results = _results(tx, run)
-    reported, tests = [result.episode for result in results], [result.test_success for result in results]
+    reported, tests = [result["episode"] for result in results], [result["test_success"] for result in results]
+    rows = _rows(bisect_right(reported, after), len(reported), most)
+    chosen = [reported[row] for row in rows]
     spent = _ledger(tx, run)
-    by_kind: dict[wire.Kind, list[tuple[int, float]]] = defaultdict(list)
-    for entry in spent:
-        by_kind[entry.kind].append((entry.episode, entry.units))
-    first = bisect_right(reported, after)
+    counts = counting([entry.episode for entry in spent], chosen)
+    rates = trailing(tests)
+    lo_samples = list(accumulate(result["train_steps"] for result in results))
+    learner_seconds = list(accumulate(result["seconds"] for result in results))
     return wire.Curves(
-        episode=reported[first:],
-        success_rate=trailing(tests)[first:],
-        test_success=tests[first:],
-        cost=_units(cumulative(reported, ((entry.episode, entry.units) for entry in spent)))[first:],
-        lo_cost=_units(cumulative(reported, ((entry.episode, entry.lo_units) for entry in spent)))[first:],
-        seconds=cumulative(reported, ((entry.episode, entry.seconds) for entry in spent))[first:],
-        active_seconds=cumulative(reported, ((entry.episode, entry.active_seconds) for entry in spent))[first:],
-        cost_by_kind={kind: _units(cumulative(reported, by_kind[kind]))[first:] for kind in wire.KINDS},
-        hi_labels=[result.hi_labels for result in results[first:]],
-        lo_samples=list(accumulate(result.train_steps for result in results))[first:],
-        learner_seconds=list(accumulate(result.seconds for result in results))[first:],
-        reward=_rewards(results)[first:],
-        reached={name: rates[first:] for name, rates in _reached(results).items()},
+        episode=chosen,
+        success_rate=[rates[row] for row in rows],
+        test_success=[tests[row] for row in rows],
+        cost=_units(cumulative(counts, (entry.units for entry in spent))),
+        lo_cost=_units(cumulative(counts, (entry.lo_units for entry in spent))),
+        seconds=cumulative(counts, (entry.seconds for entry in spent)),
+        active_seconds=cumulative(counts, (entry.active_seconds for entry in spent)),
+        cost_by_kind={
+            kind: _units(cumulative(counts, (entry.units * (entry.kind == kind) for entry in spent)))
+            for kind in wire.KINDS
+        },
+        hi_labels=[results[row]["hi_labels"] for row in rows],
+        lo_samples=[lo_samples[row] for row in rows],
+        learner_seconds=[learner_seconds[row] for row in rows],
+        reward=_rewards(results, rows),
+        reached=_reached(results, rows),
     )
+
+
+def _rows(first: int, end: int, most: int | None) -> range:
+    """Return the rows from `first` on, or the last one and every n-th before it, at most `most` of them."""
+    step = 1 if most is None else max(1, -(-(end - first) // most))
+    return range(end - 1, first - 1, -step)[::-1]
 
 
 def _units(micro: Iterable[float]) -> list[float]:
@@ -139,40 +161,66 @@ def _units(micro: Iterable[float]) -> list[float]:
 
 def costs(tx: Tx, run: str) -> wire.Costs:
     """Return the ledger's sums, also of a deleted run, and when the success rate first reached each level."""
-    row = runs.find_account(tx, run)
+    account = runs.find_account(tx, run)
     reported, tests = tests_of(tx, run)
-    spent = _ledger(tx, run)
-    by_kind = {kind: _sum([entry for entry in spent if entry.kind == kind]) for kind in wire.KINDS}
-    total = _sum(spent)
-    cost = _units(cumulative(reported, ((entry.episode, entry.units) for entry in spent)))
+    sums = _sums_by_kind(tx, run)
+    total = _cost_of(sums.values())
     return wire.Costs(
         total=total.units,
         lo_total=total.lo_units,
         seconds=total.seconds,
         active_seconds=total.active_seconds,
-        by_kind=by_kind,
-        reserved=to_units(row.reserved),
-        budget=None if row.budget is None else to_units(row.budget),
-        first_at={level: first_at(float(level), reported, tests, cost) for level in LEVELS},
+        by_kind={kind: _cost_of([sums[kind]] if kind in sums else []) for kind in wire.KINDS},
+        reserved=to_units(account.reserved),
+        budget=None if account.budget is None else to_units(account.budget),
+        tests=len(tests) - tests.count(None),
+        first_at={
+            level: None if row is None else wire.Milestone(episode=reported[row], cost=_until(tx, run, reported[row]))
+            for level, row in zip(LEVELS, first_rows(map(float, LEVELS), tests), strict=True)
+        },
     )
 
 
-def _sum(spent: Sequence[Spent]) -> wire.CostOfKind:
+def _sums_by_kind(tx: Tx, run: str) -> dict[wire.Kind, Sequence[Any]]:
+    """Return the sums of all episodes: queries, units and LO units in micro-units, seconds, active seconds."""
+    sums = ledger_sums.c
+    added = map(func.sum, (sums.queries, sums.units, sums.lo_units, sums.seconds, sums.active_seconds))
+    rows = tx.conn.execute(select(sums.kind, *added).where(sums.run_id == run).group_by(sums.kind))
+    return {kind: amounts for kind, *amounts in rows}
+
+
+def _cost_of(sums: Iterable[Sequence[Any]]) -> wire.CostOfKind:
+    queries, units, lo_units, seconds, active_seconds = map(sum, zip((0, 0, 0, 0.0, 0.0), *sums, strict=True))
     return wire.CostOfKind(
-        queries=sum(entry.queries for entry in spent),
-        units=to_units(sum(entry.units for entry in spent)),
-        lo_units=to_units(sum(entry.lo_units for entry in spent)),
-        seconds=max(sum(entry.seconds for entry in spent), 0.0),
-        active_seconds=max(sum(entry.active_seconds for entry in spent), 0.0),
+        queries=int(queries),
+        units=to_units(int(units)),
+        lo_units=to_units(int(lo_units)),
+        seconds=max(seconds, 0.0),
+        active_seconds=max(active_seconds, 0.0),
     )
+
+
+def _until(tx: Tx, run: str, episode: int) -> float:
+    """Return the cost up to and including an episode, in units."""
+    sums = ledger_sums.c
+    found = tx.conn.execute(select(func.sum(sums.units)).where(sums.run_id == run, sums.episode <= episode))
+    return to_units(int(found.scalar_one() or 0))
+
+
+def first_rows(levels: Iterable[float], tests: Sequence[bool | None]) -> list[int | None]:
+    """Return for each level the first row where the rate over a full window of tests reached it."""
+    tested = accumulate(int(outcome is not None) for outcome in tests)
+    full = [
+        (row, rate)
+        for row, (n_tests, rate) in enumerate(zip(tested, trailing(tests), strict=True))
+        if n_tests >= runs.TRAILING and rate is not None
+    ]
+    return [next((row for row, rate in full if rate >= level), None) for level in levels]
 
 
 def first_at(
     level: float, reported: Sequence[int], tests: Sequence[bool | None], cost: Sequence[float]
 ) -> wire.Milestone | None:
     """Return the first episode where the rate over a full window of tests reached a level."""
-    tested = accumulate(int(outcome is not None) for outcome in tests)
-    for episode, units, n_tests, rate in zip(reported, cost, tested, trailing(tests), strict=True):
-        if n_tests >= runs.TRAILING and rate is not None and rate >= level:
-            return wire.Milestone(episode=episode, cost=units)
-    return None
+    (row,) = first_rows([level], tests)
+    return None if row is None else wire.Milestone(episode=reported[row], cost=cost[row])

@@ -14,7 +14,7 @@ from waypost_server.db.prepared import Record
 from waypost_server.db.tables import answers, assignments, ledger, ledger_sums, runs
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import service
-from waypost_server.runs.curves import cumulative, first_at, tests_of
+from waypost_server.runs.curves import counting, cumulative, first_at, tests_of
 from waypost_server.runs.futures import Finished, Outcomes, Span, futures_of
 
 # They bound the work: the finished runs looked at, newest first, and how many of their episodes are read.
@@ -91,7 +91,8 @@ def _read(tx: Tx, run: str) -> _Told:
         .group_by(ledger_sums.c.episode)
         .order_by(ledger_sums.c.episode)
     )
-    costs = cumulative(reported, ((row[0], int(row[1])) for row in amounts))
+    paid = [(episode, int(units)) for episode, units in amounts]
+    costs = cumulative(counting([episode for episode, _ in paid], reported), (units for _, units in paid))
     return _Told(reported, outcomes, [to_units(int(units)) for units in costs])
 
 

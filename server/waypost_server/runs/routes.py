@@ -82,9 +82,13 @@ async def get_curves(
     context: Ctx,
     _: Allowed,
     after: Annotated[int, Query(ge=-1, le=2**31 - 1, description="Only the episodes after this one.")] = -1,
+    most: Annotated[
+        int | None,
+        Query(ge=2, le=100_000, description="With more rows than this, only the last and every n-th before it."),
+    ] = None,
 ) -> wire.Curves:
     """Return success and cumulative cost by episode."""
-    return await context.db.read(lambda tx: curves.curves(tx, run, after))
+    return await context.db.read(lambda tx: curves.curves(tx, run, after, most))
 
 
 @router.get("/{run}/costs", operation_id="getCosts", responses=refusals(errors.NotFound))

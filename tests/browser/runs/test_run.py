@@ -47,6 +47,24 @@ def test_a_run_is_followed_live(open_page: Open, learner: Learner) -> None:
     expect(page.get_by_text("of 100 units")).to_be_visible()
 
 
+def test_the_page_of_a_run_with_very_many_episodes_draws_some_and_loads_each_thing_once(
+    open_page: Open, learner: Learner
+) -> None:
+    run = learner.create_run("a long one")
+    learner.report(run, [episode % 3 > 0 for episode in range(2_501)])
+    page = open_page(f"/runs/{run}", role="viewer")
+    expect(page.get_by_text("The charts show 834 of 2,501 episodes, evenly spaced.")).to_be_visible()
+    requests = page.evaluate("performance.getEntriesByType('resource').map(({name, startTime}) => [name, startTime])")
+    first = requests[0][1]  # a second later, all is read again
+    begun = [name.partition("/api/v1/")[2].partition("?")[0] for name, at in requests if at < first + 900]
+    ahead = ("me", f"runs/{run}", f"runs/{run}/costs", f"runs/{run}/curves")
+    assert [begun.count(path) for path in ahead] == [1] * 4, "what the header Link names is what the scripts ask for"
+    chart = page.get_by_role("slider", name="Success on unseen instances")
+    expect(chart).to_have_attribute("aria-valuetext", re.compile("^episode 2,500: Success 67%"))
+    learner.report(run, [episode % 3 > 0 for episode in range(2_501)] + [False])
+    expect(chart).to_have_attribute("aria-valuetext", re.compile("^episode 2,501: Success 66%"))
+
+
 def test_annotators_watch_a_run_but_not_its_single_queries(open_page: Open, learner: Learner) -> None:
     run = learner.create_run("without queries", budget=100.0)
     learner.ask(run, ask("inspect_full"), ask("label_hi", ordinal=1))

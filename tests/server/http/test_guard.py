@@ -1,6 +1,7 @@
 """The outermost layer: sizes, media types, depth, hosts and headers."""
 
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -162,6 +163,12 @@ def paged(tmp_path: Path) -> Iterator[Service]:
     (page / "assets").mkdir(parents=True)
     (page / "index.html").write_text("<!doctype html><title>Waypost</title>")
     (page / "assets" / "index-abc123.js").write_text("export const x = 1;" * 2_000)
+    chunks = {
+        "index.html": {"file": "assets/index-abc123.js", "css": ["assets/index-d.css"], "imports": ["_common.js"]},
+        "_common.js": {"file": "assets/common-e.js"},
+        "src/app/RunsViews.svelte": {"file": "assets/RunsViews-f.js", "imports": ["index.html", "_common.js"]},
+    }
+    (page / "chunks.json").write_text(json.dumps(chunks))
     (tmp_path / "secret.txt").write_text("secret")
     with in_process(f"sqlite:///{tmp_path}/p.db", page=page) as service:
         yield service
@@ -174,6 +181,23 @@ def test_the_page_answers_every_address_that_is_not_the_apis(paged: Service) -> 
         assert reply.headers["cache-control"] == "no-cache"
     assert paged.client.get("/api/v2/x").status_code == 404
     assert paged.client.get("/api").status_code == 404
+
+
+def test_the_page_of_a_run_says_what_it_will_need_before_a_script_asks_for_it(paged: Service) -> None:
+    files = ["/theme.js", "/assets/index-abc123.js", "/assets/index-d.css", "/assets/common-e.js"]
+    files += ["/assets/RunsViews-f.js"]
+    run = "/api/v1/runs/0a1b2c"
+    data = ["/api/v1/me", run, f"{run}/costs", f"{run}/curves?after=-1&most=1000"]
+
+    def ahead(path: str, **headers: str) -> list[str]:
+        return re.findall("<(.*?)>", paged.client.get(path, headers=headers).headers.get("link", ""))
+
+    assert ahead("/runs/0a1b2c") == files, "somebody who has not signed in may read no run"
+    assert ahead("/runs/0a1b2c", cookie="waypost_session=x") == files + data
+    for section in ("", "/queries", "/review", "/ledger"):
+        assert ahead(f"/runs/0a1b2c{section}", **paged.viewer.headers) == files + data
+    for other in ("/", "/work", "/runs", "/runs/compare", "/runs/0a1b2c/gold", "/runs/%3E%0D%0Aa"):
+        assert ahead(other, **paged.viewer.headers) == []
 
 
 def test_hashed_assets_are_cached_for_good_and_compressed(paged: Service) -> None:

@@ -1,13 +1,14 @@
 """Curves and costs, out of the ledger and the reported episodes alone."""
 
 import json
+from itertools import pairwise
 
 import pytest
 from sqlalchemy import text
 from tests.server.kit import Json, Service, in_process, query, right_answer
 
 from waypost_server.db.engine import Database
-from waypost_server.runs.curves import cumulative, first_at, trailing
+from waypost_server.runs.curves import counting, cumulative, first_at, trailing
 
 
 def result(episode: int, passed: bool | None = True, **more: object) -> Json:
@@ -34,9 +35,10 @@ def test_the_trailing_rate_leaves_untested_episodes_out() -> None:
 
 
 def test_costs_add_up_to_each_reported_episode() -> None:
-    assert cumulative([0, 2, 3], [(0, 1), (1, 2), (3, 4), (9, 8)]) == [1, 3, 7]
-    assert cumulative([], [(0, 1)]) == []
-    assert cumulative([5], []) == [0]
+    paid, amounts = [0, 1, 3, 9], [1, 2, 4, 8]
+    assert cumulative(counting(paid, [0, 2, 3]), amounts) == [1, 3, 7]
+    assert cumulative(counting(paid, []), amounts) == []
+    assert cumulative(counting([], [5]), []) == [0]
 
 
 def test_a_level_counts_only_over_a_hundred_tests() -> None:
@@ -119,6 +121,7 @@ def test_milestones_say_when_a_level_was_first_reached(service: Service) -> None
     assert first_at["0.9"] == {"episode": 109, "cost": 1}
     assert first_at["0.99"] is None or first_at["0.99"]["cost"] == 1
     assert first_at["0.95"] == {"episode": 114, "cost": 1}
+    assert service.learner.costs(run)["tests"] == 130
 
 
 def test_reporting_again_changes_nothing_and_otherwise_is_refused(service: Service) -> None:
@@ -184,6 +187,26 @@ def test_a_long_run_has_a_row_an_episode_and_every_cost(service: Service) -> Non
     assert curves["episode"] == list(range(1_000))
     assert curves["cost"] == [5.0 * (n + 1) for n in range(1_000)]
     assert service.learner.costs(run)["total"] == 5_000
+
+
+@pytest.mark.parametrize("most", [2, 3, 7, 333, 500, 999, 1_000, 5_000])
+def test_of_very_many_episodes_some_can_be_had_evenly_spaced_and_with_the_last(lite: Service, most: int) -> None:
+    run = lite.learner.create_run()
+    filled(lite, run, 1_000, 2, active=0.5)
+    rewards = {"reward": 0.5, "attempts": [{"subgoal": "key", "reached": True}]}
+    report(lite, run, *(result(n, n % 3 > 0, **rewards) for n in range(1_000)))
+    every = lite.viewer.get(f"/runs/{run}/curves")
+    some = lite.viewer.get(f"/runs/{run}/curves", params={"most": most})
+    rows = [every["episode"].index(episode) for episode in some["episode"]]
+    assert len({after - before for before, after in pairwise(rows)}) == 1
+    assert rows[-1] == 999
+    assert min(most, 1_000) / 2 < len(rows) <= most
+    for name, column in every.items():
+        for key, values in column.items() if isinstance(column, dict) else [("", column)]:
+            found = some[name][key] if key else some[name]
+            assert found == [values[row] for row in rows], name
+    later = lite.viewer.get(f"/runs/{run}/curves", params={"most": most, "after": 997})
+    assert later["episode"] == [998, 999]
 
 
 def test_the_ledger_survives_a_restart(database_url: str) -> None:

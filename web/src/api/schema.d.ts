@@ -2728,6 +2728,11 @@ export interface components {
              */
             budget: number | null;
             /**
+             * Tests
+             * @description The number of test rollouts. A level counts as reached from the 100th on.
+             */
+            tests: number;
+            /**
              * First At
              * @description By success level ("0.8", "0.9", "0.95", "0.99"): when it was first reached; null if it was not.
              */
@@ -7720,6 +7725,8 @@ export interface operations {
             query?: {
                 /** @description Only the episodes after this one. */
                 after?: number;
+                /** @description With more rows than this, only the last and every n-th before it. */
+                most?: number | null;
             };
             header?: never;
             path: {

@@ -5,6 +5,7 @@ import { updatedCurves } from './curves/curves';
 import { throttled, watch, type RunEvent } from '../api/live';
 
 const REFRESH_MS = 1_000;
+const MOST = 1_000; // episodes to draw, about one for each pixel; the server's http/ahead.py has the same number
 
 type Part = 'run' | 'costs' | 'curves' | 'queries' | 'ledger';
 const PARTS: readonly Part[] = ['run', 'costs', 'curves', 'queries', 'ledger'];
@@ -93,6 +94,6 @@ export class WatchedRun {
   async #loadCurves(): Promise<void> {
     const known = this.#missed ? null : this.curves;
     this.#missed = false;
-    this.curves = await updatedCurves(this.#id, known);
+    this.curves = await updatedCurves(this.#id, known, MOST);
   }
 }

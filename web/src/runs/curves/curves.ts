@@ -50,11 +50,6 @@ export function xAxisOf(name: string | null): XAxisName {
   return name !== null && Object.hasOwn(X_AXES, name) ? (name as XAxisName) : 'episode';
 }
 
-/** Return how many tests there were; some episodes have none. */
-export function testsIn(curves: Curves): number {
-  return curves.test_success.filter((outcome) => outcome !== null).length;
-}
-
 /** Return success as a series. Over cost or time it is a step function: the success reached so far. */
 export function successOf(curves: Curves, xAxis: XAxisName): Series[] {
   const x = X_AXES[xAxis].of(curves);
@@ -120,8 +115,12 @@ export function joined(known: Curves | null, more: Curves): Curves {
   };
 }
 
-/** Load the episodes after the known curves, and return the complete curves. */
-export async function updatedCurves(run: string, known: Curves | null): Promise<Curves> {
-  const params = { path: { run }, query: { after: known?.episode.at(-1) ?? -1 } };
+/** Load the episodes after the known curves, of very many only `most`, and return the curves with them. */
+export async function updatedCurves(
+  run: string,
+  known: Curves | null,
+  most: number | null = null,
+): Promise<Curves> {
+  const params = { path: { run }, query: { after: known?.episode.at(-1) ?? -1, most } };
   return joined(known, await unwrap(api.GET('/api/v1/runs/{run}/curves', { params })));
 }
