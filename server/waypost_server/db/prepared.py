@@ -5,8 +5,9 @@ the statements on their way are prepared. All others run as usual. Both kinds sh
 """
 
 from collections import namedtuple
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any
 
 from sqlalchemy import Boolean, Connection, Delete, Dialect, Insert, Select, Update
@@ -17,13 +18,15 @@ Parameters = Mapping[str, Any]
 Record = Any
 """A row: its columns are attributes."""
 
+_TRUTHS = {0: False, 1: True}
+
 
 @dataclass(frozen=True)
 class Compiled:
     """A statement in the words of one database."""
 
     sql: str
-    order: Sequence[str] | None  # of its parameters, where they have places instead of names
+    in_order: Callable[[Parameters], Any] | None  # arranges its parameters, where they have places instead of names
     constants: Parameters  # the values that the statement itself contains
     row: Any  # the named tuple of its rows; None if it returns none
     truths: Sequence[int]  # the columns that this database stores as 0 and 1
@@ -35,14 +38,14 @@ class Compiled:
             KeyError: one is missing.
         """
         given = {**self.constants, **parameters} if self.constants else parameters
-        return given if self.order is None else [given[name] for name in self.order]
+        return given if self.in_order is None else self.in_order(given)
 
     def row_of(self, values: Sequence[Any]) -> Any:
         """Return a row of the driver as a named tuple."""
         if self.truths:
-            values = [
-                bool(one) if place in self.truths and one is not None else one for place, one in enumerate(values)
-            ]
+            values = list(values)
+            for place in self.truths:
+                values[place] = _TRUTHS.get(values[place])
         return self.row._make(values)
 
 
@@ -99,7 +102,7 @@ class Prepared:
         names = [str(name) for name in returned.keys()]  # noqa: SIM118 - it is no dict
         return Compiled(
             str(sql),
-            sql.positiontup if sql.positional else None,
+            _arranging(sql.positiontup or []) if sql.positional else None,
             {name: bind.value for bind, name in sql.bind_names.items() if not bind.required},
             namedtuple("Row", names) if names else None,
             ()
@@ -113,13 +116,20 @@ class Prepared:
         return run_sql(conn, compiled.sql, compiled.arguments(parameters))
 
 
+def _arranging(order: Sequence[str]) -> Callable[[Parameters], Any]:
+    """Return what arranges parameters in an order."""
+    if len(order) > 1:
+        return itemgetter(*order)  # in C, as these functions run for every statement
+    return lambda given: [given[name] for name in order]
+
+
 def run_sql(conn: Connection, sql: str, arguments: Any = ()) -> Any:
     """Let the driver run a statement, and return its cursor.
 
     Raises:
         DBAPIError: as SQLAlchemy raises it, so that all statements fail alike.
     """
-    driver: Any = conn.connection.driver_connection
+    driver: Any = conn.connection.dbapi_connection  # the driver's own, for drivers without asyncio
     dialect = conn.dialect
     cursor = driver.cursor()
     try:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from pydantic_core import to_json
 from sqlalchemy import Text, cast, func, insert, select
 
 from waypost import wire
@@ -49,7 +50,7 @@ def add(tx: Tx, run: str, event: str, data: Mapping[str, Any]) -> int:
 
     The caller has locked the run's row, so the ids of a run grow in the order of the commits.
     """
-    row = {"run_id": run, "event": event, "data": json.dumps(data), "created_at": tx.now}
+    row = {"run_id": run, "event": event, "data": to_json(data).decode(), "created_at": tx.now}
     tx.wake(topic(run), ANY)
     return int(_INSERT.value(tx.conn, row))
 
