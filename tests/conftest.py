@@ -4,7 +4,7 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack
 from functools import cached_property
 from itertools import count
@@ -31,11 +31,21 @@ def postgresql_binaries() -> Path | None:
 
 
 class Cluster:
-    """A PostgreSQL cluster on a socket in a folder of its own; as root it runs as the user `postgres`."""
+    """A PostgreSQL cluster on a socket in a folder of its own; as root it runs as the user `postgres`.
 
-    def __init__(self, binaries: Path, folder: Path, *, fsync: bool = False) -> None:
-        self._binaries = binaries
+    Args:
+        binaries: the folder with `initdb` and `pg_ctl`.
+        folder: where everything goes.
+        fsync: whether commits wait for the disk.
+        variables: environment variables for its processes, beside those of this one.
+    """
+
+    def __init__(
+        self, binaries: Path, folder: Path, *, fsync: bool = False, variables: Mapping[str, str] | None = None
+    ) -> None:
+        self.binaries = binaries
         self._folder = folder
+        self._variables = os.environ | (variables or {})
         self._account: dict[str, Any] = {}
         if os.geteuid() == 0:
             self._account = {"user": "postgres", "group": "postgres", "extra_groups": []}
@@ -78,12 +88,13 @@ class Cluster:
 
     def _run(self, program: str, *arguments: str) -> None:
         done = subprocess.run(
-            [self._binaries / program, *arguments],
+            [self.binaries / program, *arguments],
             cwd=self._folder,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE if program != "pg_ctl" else subprocess.DEVNULL,
             check=False,
+            env=self._variables,
             **self._account,
         )
         if done.returncode != 0:

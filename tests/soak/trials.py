@@ -15,6 +15,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -44,6 +45,7 @@ SHORTEST, LONGEST = 0.1, 1.5  # seconds until a server is killed
 LEASE_SECONDS = 2
 CLOCKS = ("+1h", "-1h", "+1d", "-1d", "+0", "+2h", "-2h", "+90d", "-90d", "+3s", "-3s", "+0")  # beside the true time
 EARLIEST = "-91d"
+CLOCK = "clock"  # the file with the time of a stepped clock
 CUT_RATE = 0.1  # of the requests
 
 
@@ -152,25 +154,45 @@ def cuts(url: str, folder: Path, seed: int) -> Counter[str]:
     return _told(told) + counts + proof(url, told) + Counter({"other receipts": send_again(url, told)})
 
 
-def clocks(url: str, folder: Path, seed: int) -> Counter[str]:
-    """Set the clock of a server and of its store forward and back while annotators answer; then empty the queue."""
+def clocks(folder: Path, seed: int) -> Counter[str]:
+    """Set the clock of a server and its store forward and back while annotators answer; then empty the queue."""
+    return _clocks(f"sqlite:///{folder / 'store.db'}", folder, seed, _stepped(folder))
+
+
+def clocks_of_postgresql(binaries: Path, folder: Path, seed: int) -> Counter[str]:
+    """Do the same with a PostgreSQL whose clock is not the server's."""
+    (place := folder / "cluster").mkdir()
+    cluster = Cluster(binaries, place, fsync=True, variables=_stepped(folder))
+    try:
+        return _clocks(cluster.create(), folder, seed, {})
+    finally:
+        cluster.stop()
+
+
+def _stepped(folder: Path) -> dict[str, str]:
+    """Return the environment of a program whose clock is as far from the true time as a file in the folder says."""
     library = next(Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"), None)
     if library is None:
         pytest.skip("there is no libfaketime on this machine (Debian: faketime)")
-    told, choose, clock = Told(), random.Random(seed), folder / "clock"
-    clock.write_text("+0")
+    (clock := folder / CLOCK).write_text("+0")
+    folder.chmod(0o755)  # PostgreSQL runs as another user than root, and reads the file
     faked = {"LD_PRELOAD": str(library), "FAKETIME_TIMESTAMP_FILE": str(clock), "FAKETIME_NO_CACHE": "1"}
+    return faked | {"FAKETIME_DONT_FAKE_MONOTONIC": "1"}
+
+
+def _clocks(url: str, folder: Path, seed: int, variables: Mapping[str, str]) -> Counter[str]:
+    told, choose = Told(), random.Random(seed)
     steps = [*choose.sample(CLOCKS, len(CLOCKS)), EARLIEST]  # so that leases of the future are left at the end
     people = team(url, N_QUERIES, N_ANNOTATORS)
     settings = {"lease_seconds": str(LEASE_SECONDS)}
-    with serving(url, folder, settings, variables=faked | {"FAKETIME_DONT_FAKE_MONOTONIC": "1"}) as server:
+    with serving(url, folder, settings, variables=variables) as server:
         work = (server.address, people, told, lambda: 0, seed, N_QUERIES)
         answering = threading.Thread(target=answer_all, args=work)
         answering.start()
         for step in steps:
             time.sleep(choose.uniform(0.1, 0.5))
             take_and_vanish(server.address, people)
-            clock.write_text(step)
+            (folder / CLOCK).write_text(step)
         answering.join()
         time.sleep(LEASE_SECONDS + 2)  # leases end after two seconds, and the server looks once a second
         answer_all(*work)
@@ -204,14 +226,14 @@ def schedules(url: str, folder: Path, seed: int) -> Counter[str]:
 
 def every(cluster: Cluster | None) -> dict[str, Trial]:
     """Return all trials by name; without a cluster, those of SQLite."""
-    trials: dict[str, Trial] = {"power": power, "faults": faults, "backups": backups}
-    trials["clocks"] = _on(clocks, lambda folder: f"sqlite:///{folder / 'store.db'}")
+    trials: dict[str, Trial] = {"power": power, "faults": faults, "backups": backups, "clocks": clocks}
     on_both = {"kills": kills, "cuts": cuts, "races": races, "schedules": schedules}
     for name, trial in on_both.items():
         trials[name] = _on(trial, lambda folder: f"sqlite:///{folder / 'store.db'}")
     if cluster is not None:
         for name, trial in on_both.items():
             trials[f"{name}, PostgreSQL"] = _on(trial, lambda _: cluster.create())
+        trials["clocks, PostgreSQL"] = partial(clocks_of_postgresql, cluster.binaries)
         trials["kills of one of two, PostgreSQL"] = _on(kills_of_one_of_two, lambda _: cluster.create())
     return trials
 

@@ -69,7 +69,7 @@ class Case:
     digest: str
 
 
-LOCK_QUERY = Prepared(select(query_table).where(query_table.c.id == bindparam("query")).with_for_update())
+LOCK_QUERY = Prepared(select(query_table).where(query_table.c.id == bindparam("query")).with_for_update(key_share=True))
 ANSWER_OF = Prepared(select(answers).where(answers.c.assignment_id == bindparam("assignment")))
 # Answers of two runs lock different rows, so two of them can come here with the same Idempotency-Key. The second waits
 # until the first is committed or undone.

@@ -38,7 +38,7 @@ _FIND = Prepared(
     .join(query_table, query_table.c.id == assignments.c.query_id)
     .where(assignments.c.id == bindparam("assignment"))
 )
-_LOCK = Prepared(select(query_table.c.id).where(query_table.c.id == bindparam("query")).with_for_update())
+_LOCK = Prepared(select(query_table.c.id).where(query_table.c.id == bindparam("query")).with_for_update(key_share=True))
 _own = run_table.alias("own")
 _VIEW = Prepared(
     select(assignments.c.id, assignments.c.token, assignments.c.leased_at, assignments.c.expires_at)

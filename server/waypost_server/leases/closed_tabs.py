@@ -11,7 +11,7 @@ from waypost_server.db.transaction import Tx
 
 KEPT_SECONDS = 600.0  # longer than any request that a closed tab may have sent
 
-_LOCK = select(users.c.id).where(users.c.id == bindparam("user")).with_for_update()
+_LOCK = select(users.c.id).where(users.c.id == bindparam("user")).with_for_update(key_share=True)
 _OLD = delete(closed_tabs).where(closed_tabs.c.at < bindparam("before"))
 _KNOWN = select(exists().where(closed_tabs.c.user_id == bindparam("user"), closed_tabs.c.tab == bindparam("tab")))
 

@@ -42,8 +42,8 @@ class Candidates:
             Prepared(offered.limit(bindparam("most"))),
             Prepared(offered.limit(1)),
             Prepared(offered.where(*last).limit(1)),
-            Prepared(offered.limit(1).with_for_update(skip_locked=True, of=queries)),
-            Prepared(offered.limit(bindparam("most")).with_for_update(skip_locked=True, of=queries)),
+            Prepared(offered.limit(1).with_for_update(skip_locked=True, key_share=True, of=queries)),
+            Prepared(offered.limit(bindparam("most")).with_for_update(skip_locked=True, key_share=True, of=queries)),
         )
 
 
@@ -60,7 +60,7 @@ _SKIPPED = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == b
 _LOCK_ONE = Prepared(
     select(queries.c.id)
     .where(queries.c.id == bindparam("query"), IS_OPEN, ~_SKIPPED)
-    .with_for_update(skip_locked=True, of=queries)
+    .with_for_update(skip_locked=True, key_share=True, of=queries)
 )
 
 

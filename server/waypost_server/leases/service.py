@@ -30,7 +30,7 @@ _EXPIRED = Prepared(
     select(queries.c.id)
     .join(assignments, assignments.c.query_id == queries.c.id)
     .where(IS_LIVE, assignments.c.expires_at <= bindparam("now"))
-    .with_for_update(skip_locked=True, of=queries)
+    .with_for_update(skip_locked=True, key_share=True, of=queries)
 )
 
 
@@ -192,7 +192,7 @@ def _end_where(tx: Tx, ending: str, *conditions: ColumnElement[bool]) -> None:
         select(queries.c.id)
         .join(assignments, assignments.c.query_id == queries.c.id)
         .where(*conditions, IS_LIVE)
-        .with_for_update(of=queries)
+        .with_for_update(key_share=True, of=queries)
     )
     ids = tx.conn.execute(locked).scalars().all()
     if ids:

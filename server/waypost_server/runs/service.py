@@ -96,7 +96,8 @@ def of_row(row: Record) -> wire.Run:
 _OF_ID = select(runs).where(runs.c.id == bindparam("run"), runs.c.deleted_at.is_(None))
 _FIND = Prepared(_OF_ID)
 _FIND_ACCOUNT = Prepared(select(runs).where(runs.c.id == bindparam("run")))
-_LOCK = Prepared(_OF_ID.with_for_update())
+# With `key_share`, as in all locks: to insert a row that refers to this one, no other transaction has to wait.
+_LOCK = Prepared(_OF_ID.with_for_update(key_share=True))
 _VIEW = Prepared(RUNS.where(runs.c.id == bindparam("run")))
 
 
@@ -268,7 +269,7 @@ def _new_state(tx: Tx, row: Record, state: wire.RunState) -> dict[str, Any]:
 
 def _finish_shadow(tx: Tx, run: str) -> None:
     """Finish the run's shadow too, and cancel its open gold queries."""
-    row = tx.conn.execute(select(runs.c.id).where(runs.c.gold_of == run).with_for_update()).one_or_none()
+    row = tx.conn.execute(select(runs.c.id).where(runs.c.gold_of == run).with_for_update(key_share=True)).one_or_none()
     if row is not None:
         _cancel_open(tx, row.id)
         tx.conn.execute(update(runs).where(runs.c.id == row.id).values(state="finished", finished_at=tx.now))
@@ -277,7 +278,7 @@ def _finish_shadow(tx: Tx, run: str) -> None:
 def _cancel_open(tx: Tx, run: str) -> None:
     """Cancel the queries without an answer and release the units reserved for them."""
     waiting = select(queries.c.id, queries.c.reserve).where(queries.c.run_id == run, queries.c.state.in_(UNANSWERED))
-    rows = tx.conn.execute(waiting.with_for_update()).all()
+    rows = tx.conn.execute(waiting.with_for_update(key_share=True)).all()
     if not rows:
         return
     ids = select(queries.c.id).where(queries.c.run_id == run, queries.c.state == "cancelled")

@@ -46,7 +46,7 @@ def erase(tx: Tx, user: int, by: Actor = COMMAND_LINE) -> wire.UserErasure:
     Raises:
         NotFound, StillActive, UserErased: there is no such user, or no such user to erase.
     """
-    _check(tx, _USER.where(users.c.id == user).with_for_update(), user)
+    _check(tx, _USER.where(users.c.id == user).with_for_update(key_share=True), user)
     take_time(tx)
     # First, because the trigger of comments lets go only those of an erased user.
     nameless = {"name": f"erased-{secrets.token_hex(6)}", "erased_at": tx.now}

@@ -127,7 +127,7 @@ def change(tx: Tx, user: int, patch: wire.UserPatch, by: Actor = COMMAND_LINE) -
         select(users.c.id, is_administrator.label("is_administrator"))
         .where(or_(is_administrator, users.c.id == user))
         .order_by(users.c.id)
-        .with_for_update()
+        .with_for_update(key_share=True)
     )
     administrators = [row.id for row in locked if row.is_administrator]
     now = view(tx, user)

@@ -17,6 +17,7 @@ from waypost_server.db import prepared
 from waypost_server.db.transaction import Tx
 from waypost_server.leases import service as leases
 from waypost_server.leases.request import LeaseRequest
+from waypost_server.runs import service as runs
 from waypost_server.settings import Settings
 
 
@@ -158,6 +159,20 @@ def test_a_key_used_in_two_runs_at_once_is_refused_if_the_first_answer_is_stored
         (again,) = service.annotator.get("/assignments")["assignments"]
         assert again["id"] == (second if is_committed else first)["id"]
         service.annotator.answer(again, headers={"Idempotency-Key": "def"})
+
+
+def test_a_lease_that_takes_over_an_expired_one_does_not_wait_for_an_answer_to_another_query(cluster: Any) -> None:
+    with in_process(cluster.create(), lease_seconds=0.2) as service:
+        run = service.learner.create_run()
+        service.learner.ask(run, query())
+        expired = service.annotator.lease()
+        time.sleep(0.3)
+        engine = create_engine(service.db.url)
+        with engine.begin() as answering:
+            runs.lock(Tx(answering), run)
+            (other,) = service.annotators(1)
+            assert other.lease()["query"]["id"] == expired["query"]["id"]
+        engine.dispose()
 
 
 def test_a_query_that_is_skipped_while_its_annotator_leases_does_not_come_back(
