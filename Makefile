@@ -3,6 +3,7 @@
 
 VENV := .venv
 PEERS := $(VENV)/peers
+LABEL_STUDIO := $(VENV)/label-studio
 PYTHON := $(VENV)/bin/python
 PIP := $(PYTHON) -m pip --disable-pip-version-check -qq
 WITH_NODE := scripts/with-node
@@ -14,7 +15,8 @@ WORKERS ?= 4
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help demo serve web docs docs-serve test test-web test-browsers lint lint-python lint-web bench soak mutants clean
+.PHONY: help demo serve web docs docs-serve test test-web test-browsers lint lint-python lint-web bench \
+  bench-label-studio soak mutants clean
 .DELETE_ON_ERROR:
 
 help:
@@ -24,6 +26,7 @@ help:
 	@echo "make test-browsers  open the web app in Firefox and WebKit, which it installs (Debian, Ubuntu)"
 	@echo "make lint    run only the checks: style, types, import contracts"
 	@echo "make bench   measure, and print tables"
+	@echo "make bench-label-studio  measure Waypost and Label Studio, which it installs, side by side"
 	@echo "make soak    try for 10 minutes to make stores lose answers, and print counts"
 	@echo "make mutants change the server's core in small ways, for an hour or more, and list what no test notices"
 	@echo "make web     build the web app"
@@ -82,8 +85,13 @@ lint-web: web/node_modules/.stamp $(VENV)/.dev
 	@cd web && ../$(WITH_NODE) npm run --silent texts:check
 	@cd web && ../$(WITH_NODE) npm run --silent types:check
 
+# Label Studio is not among the measurements of `make bench`, because it is large to install and slow to start.
 bench: $(VENV)/.dev $(PEERS)/.installed
-	@set -e; for file in bench/*.py; do echo "== $$file"; PYTHONPATH=. $(PYTHON) "$$file" $(ARGS); done
+	@set -e; for file in $(filter-out bench/label_studio.py,$(sort $(wildcard bench/*.py))); do \
+	  echo "== $$file"; PYTHONPATH=. $(PYTHON) "$$file" $(ARGS); done
+
+bench-label-studio: $(VENV)/.dev $(LABEL_STUDIO)/.installed
+	@PYTHONPATH=. exec $(PYTHON) bench/label_studio.py $(ARGS)
 
 soak: $(VENV)/.dev
 	@exec $(PYTHON) -m tests.soak $(ARGS)
@@ -105,6 +113,10 @@ endif
 
 ifneq ($(shell scripts/venv-works $(PEERS)),yes)
 $(shell rm -f $(PEERS)/.installed)
+endif
+
+ifneq ($(shell scripts/venv-works $(LABEL_STUDIO)),yes)
+$(shell rm -f $(LABEL_STUDIO)/.installed)
 endif
 
 $(VENV)/.made:
@@ -132,6 +144,12 @@ $(PEERS)/.installed: bench/peers/requirements.txt $(VENV)/.made
 	@if PYTHON_FOR_VENV=$(PYTHON) scripts/make-venv $(PEERS) && \
 	  $(PEERS)/bin/python -m pip --disable-pip-version-check -qq install -r $<; \
 	then touch $@; else echo "They could not be installed; the measurements continue without them."; fi
+
+$(LABEL_STUDIO)/.installed: bench/peers/label-studio.txt $(VENV)/.made
+	@echo "Installing Label Studio for the comparison (1 GB), which takes some minutes."
+	@if PYTHON_FOR_VENV=$(PYTHON) scripts/make-venv $(LABEL_STUDIO) && \
+	  $(LABEL_STUDIO)/bin/python -m pip --disable-pip-version-check -qq install -r $<; \
+	then touch $@; else echo "Label Studio could not be installed, so nothing can be measured; the reason is above."; fi
 
 # If there is no recent Node, scripts/with-node installs one in the virtual environment.
 web/node_modules/.stamp: web/package.json web/package-lock.json | $(VENV)/.made
