@@ -58,6 +58,18 @@ def test_a_heartbeat_without_activity_is_no_sign_of_it(capped: Service) -> None:
     assert capped.annotator.answer(held)["active_seconds"] == pytest.approx(CAP, abs=SLACK)
 
 
+def test_the_clock_starts_at_a_lease_whatever_others_hold(capped: Service) -> None:
+    ask(capped, 3)
+    (other,) = capped.annotators(1)
+    other.lease()
+    capped.annotator.answer(capped.annotator.lease())
+    time.sleep(0.5)
+    held = capped.annotator.lease()
+    capped.annotator.renew(held, active=True)
+    time.sleep(CAP + 0.6)
+    assert CAP <= capped.annotator.answer(held)["active_seconds"] < CAP + 0.4, "the break before the lease counts"
+
+
 def test_a_query_leased_ahead_costs_time_from_the_answer_before_it(capped: Service) -> None:
     ask(capped, 2)
     first, ahead = capped.annotator.lease(), capped.annotator.lease(ahead=True)

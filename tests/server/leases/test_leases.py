@@ -266,6 +266,16 @@ def test_two_bots_do_not_wait_for_each_other(service: Service) -> None:
     two.lease(defer=60)
 
 
+def test_a_bot_that_holds_what_it_deferred_is_not_at_work(database_url: str) -> None:
+    with in_process(database_url, presence_seconds=0.2) as service:
+        one, two = service.annotators(2)
+        one.lease(expect=204)  # it asked without deferring, which counts for a while
+        time.sleep(0.4)
+        service.learner.ask(service.learner.create_run(), query(), query(ordinal=1))
+        one.lease(defer=60)
+        two.lease(defer=60)
+
+
 def test_a_follow_up_is_kept_for_who_is_at_work_on_its_episode(service: Service) -> None:
     run = service.learner.create_run()
     service.learner.ask(run, query("inspect_full"))
