@@ -59,8 +59,8 @@ def query(number: int) -> dict[str, Any]:
 
 
 @contextmanager
-def serving(database: str) -> Iterator[tuple[str, int, dict[str, str], list[dict[str, str]]]]:
-    """Run `serve` in a process; yield its address, its process id, and the headers of a learner and of annotators."""
+def serving(database: str, processes: int = 1) -> Iterator[tuple[str, int, dict[str, str], list[dict[str, str]]]]:
+    """Run `serve`; yield its address, its process id, and the headers of a learner and of annotators."""
     db = Database(database)
 
     def headers(name: str, role: Any) -> dict[str, str]:
@@ -71,6 +71,7 @@ def serving(database: str) -> Iterator[tuple[str, int, dict[str, str], list[dict
     annotators = [headers(f"annotator{n}", "annotator") for n in range(max(ANNOTATORS))]
     db.close()
     command = [sys.executable, "-u", "-m", "waypost_server.cli", "serve", "--port", "0", "--database", database]
+    command += ["--processes", str(processes)]
     unlimited = os.environ | {"WAYPOST_MAX_OPEN_QUERIES": "1000000"}  # per run; by default 10,000
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=unlimited) as process:
         assert process.stdout is not None
@@ -180,16 +181,28 @@ def work_with_wrk(url: str, headers: Sequence[dict[str, str]], run: str, mode: s
 
 
 def cpu_seconds(pid: int) -> float:
-    """Return the CPU time a process has used (Linux)."""
+    """Return the CPU time that a process has used, with the processes it started that still run (Linux)."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    started = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK") + sum(
+        cpu_seconds(int(one)) for one in started
+    )
 
 
 def row(
-    name: str, database: str, n: int, seconds: float, mode: str, backlog: int, limit: float, *, with_wrk: bool
+    name: str,
+    database: str,
+    n: int,
+    seconds: float,
+    mode: str,
+    backlog: int,
+    limit: float,
+    *,
+    with_wrk: bool,
+    processes: int = 1,
 ) -> str:
     """Measure and return one row of the table; `limit` is the number of commits/s of SQLite alone on this disk."""
-    with serving(database) as (url, pid, learner, headers):
+    with serving(database, processes) as (url, pid, learner, headers):
         run = ask_all(url, learner, backlog)
         annotators = [Annotator(url, headers[k], run) for k in range(n)]
         if mode == "batches of answers":
@@ -208,9 +221,10 @@ def row(
     p99 = times[min(len(times) - 1, int(0.99 * len(times)))]
     duplicates = len(answered) - len(set(answered))
     rate = len(times) / took
+    server = name if processes == 1 else f"{name}, {processes} processes"
     at_least = "≥ " if with_wrk and len(cycles) == backlog else ""  # wrk goes on when no query is left
     return (
-        f"| {name} | {mode} | {n} | {backlog} | {at_least}{rate:.0f} | {limit / rate:.0f} | "
+        f"| {server} | {mode} | {n} | {backlog} | {at_least}{rate:.0f} | {limit / rate:.0f} | "
         f"{statistics.median(times):.1f} | {p99:.1f} | {times[-1]:.0f} | {1_000 * cpu / len(times):.2f} | "
         f"{duplicates}/{len(answered)} |"
     )
@@ -249,6 +263,7 @@ def main() -> None:
     databases = ("SQLite", "PostgreSQL")
     parser.add_argument("--databases", nargs="+", choices=databases, default=list(databases))
     parser.add_argument("--client", choices=("python", "wrk"), default="python", help="who the annotators are")
+    parser.add_argument("--processes", type=int, nargs="+", default=[1], help="of the server; several: PostgreSQL only")
     options = parser.parse_args()
     with_wrk = options.client == "wrk"
     if with_wrk and not {*options.modes} <= {*ONE_BY_ONE}:
@@ -271,13 +286,11 @@ def main() -> None:
         print(f"Upper limit: SQLite alone makes {limit:.0f} commits/s on this disk (WAL, FULL, one row each).\n")
         print(HEADER)
         print("|---" * HEADER.count(" | ") + "|---|")
-        rows = product(options.databases, options.modes, options.backlogs, options.annotators)
-        for number, (name, mode, backlog, n) in enumerate(rows):
-            if name in targets:
-                print(
-                    row(name, targets[name](number), n, options.seconds, mode, backlog, limit, with_wrk=with_wrk),
-                    flush=True,
-                )
+        rows = product(options.databases, options.modes, options.backlogs, options.annotators, options.processes)
+        for number, (name, mode, backlog, n, processes) in enumerate(rows):
+            if name in targets and (processes == 1 or name == "PostgreSQL"):
+                how = {"with_wrk": with_wrk, "processes": processes}
+                print(row(name, targets[name](number), n, options.seconds, mode, backlog, limit, **how), flush=True)
 
 
 if __name__ == "__main__":
