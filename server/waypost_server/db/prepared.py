@@ -19,6 +19,7 @@ Record = Any
 """A row: its columns are attributes."""
 
 _TRUTHS = {0: False, 1: True}
+_CURSOR = "the cursor of prepared statements"  # in the information that the pool keeps of a connection
 
 
 @dataclass(frozen=True)
@@ -124,18 +125,20 @@ def _arranging(order: Sequence[str]) -> Callable[[Parameters], Any]:
 
 
 def run_sql(conn: Connection, sql: str, arguments: Any = ()) -> Any:
-    """Let the driver run a statement, and return its cursor.
+    """Let the driver run a statement, and return its cursor, which the next statement of the connection uses again.
 
     Raises:
         DBAPIError: as SQLAlchemy raises it, so that all statements fail alike.
     """
-    driver: Any = conn.connection.dbapi_connection  # the driver's own, for drivers without asyncio
+    pooled: Any = conn.connection
+    cursor = pooled.info.get(_CURSOR)
+    if cursor is None:  # psycopg takes as long to make a cursor as to run a small statement
+        cursor = pooled.info[_CURSOR] = pooled.dbapi_connection.cursor()
     dialect = conn.dialect
-    cursor = driver.cursor()
     try:
         cursor.execute(sql, arguments)
     except dialect.loaded_dbapi.Error as error:
-        lost = dialect.is_disconnect(error, driver, cursor)
+        lost = dialect.is_disconnect(error, pooled.dbapi_connection, cursor)
         if lost:
             conn.invalidate(error)
         base = dialect.loaded_dbapi.Error
