@@ -11,19 +11,19 @@ _REQUESTS = ("", "/costs", "/curves?after=-1&most=1000")  # what web/src/runs/wa
 _CHUNKS = ("index.html", "src/app/RunsViews.svelte")
 
 
-def ahead(root: Path, path: str, known: bool) -> str:
+def ahead(root: Path, path: str, may_be_known: bool) -> str:
     """Return the header for a path; empty where nothing is worth it.
 
     Args:
         root: the folder of the built web app, with Vite's manifest.
         path: of the page, without a slash at its beginning.
-        known: whether the browser may be signed in; otherwise it loads no data.
+        may_be_known: whether the browser may be signed in; otherwise it loads no data.
     """
     run = _RUN.fullmatch(path)
     if run is None:
         return ""
     data = ["/api/v1/me", *(f"/api/v1/runs/{run[1]}{request}" for request in _REQUESTS)]
-    requests = [f"<{address}>; rel=preload; as=fetch; crossorigin" for address in data] if known else []
+    requests = [f"<{address}>; rel=preload; as=fetch; crossorigin" for address in data] if may_be_known else []
     return ", ".join([*_files(root), *requests])
 
 

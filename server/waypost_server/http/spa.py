@@ -8,7 +8,6 @@ from pathlib import Path
 from fastapi import FastAPI, HTTPException, Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
 
-from waypost_server.auth.permissions import cookie_of
 from waypost_server.http.ahead import ahead
 
 MISSING = (
@@ -51,9 +50,8 @@ def install(app: FastAPI, folder: Path | None) -> None:
         if path.startswith("assets/"):
             raise HTTPException(404, f"There is no {request.url.path}.")
         headers = {"Cache-Control": "no-cache"}
-        if hints := ahead(
-            root, path, known="authorization" in request.headers or cookie_of(request) in request.cookies
-        ):
+        may_be_known = "cookie" in request.headers or "authorization" in request.headers
+        if hints := ahead(root, path, may_be_known):
             headers["Link"] = hints
         return FileResponse(root / "index.html", headers=headers)
 
