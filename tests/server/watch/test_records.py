@@ -1,5 +1,6 @@
 """Records: everything of a run can be read in pages, and a store that takes them in has the same run."""
 
+import json
 from collections.abc import Callable
 from contextlib import closing
 from itertools import chain
@@ -138,7 +139,7 @@ def test_an_imported_run_is_marked_belongs_to_an_administrator_and_can_spend_not
         copy.learner.patch(run, 403, name="mine")
         with closing(Database(url)) as db:
             (event,) = db.read_now(lambda tx: tx.conn.exec_driver_sql("SELECT data FROM events").scalars().all())
-        assert event == '{"state": "finished", "imported": true}'
+        assert json.loads(event) == {"state": "finished", "imported": True}
 
 
 def test_annotators_unknown_to_the_store_become_deactivated_users(service: Service, tmp_path: Path) -> None:
