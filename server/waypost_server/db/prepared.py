@@ -71,23 +71,28 @@ class Prepared:
 
     def rows(self, conn: Connection, parameters: Parameters) -> list[Record]:
         """Return all rows."""
-        compiled = self._in(conn.dialect)
-        return [compiled.row_of(values) for values in self._execute(conn, compiled, parameters).fetchall()]
+        compiled, found = self._read(conn, parameters)
+        return list(map(compiled.row_of, found))
 
     def first(self, conn: Connection, parameters: Parameters) -> Record | None:
         """Return the first row, or None if there is none."""
-        compiled = self._in(conn.dialect)
-        values = self._execute(conn, compiled, parameters).fetchone()
-        return None if values is None else compiled.row_of(values)
+        compiled, found = self._read(conn, parameters)
+        return compiled.row_of(found[0]) if found else None
 
     def one(self, conn: Connection, parameters: Parameters) -> Record:
         """Return the first row of a statement that always has one."""
-        compiled = self._in(conn.dialect)
-        return compiled.row_of(self._execute(conn, compiled, parameters).fetchone())
+        compiled, found = self._read(conn, parameters)
+        return compiled.row_of(found[0])
 
     def value(self, conn: Connection, parameters: Parameters) -> Any:
         """Return the first column of the first row of a statement that always has one."""
-        return self._execute(conn, self._in(conn.dialect), parameters).fetchone()[0]
+        _, found = self._read(conn, parameters)
+        return found[0][0]
+
+    def _read(self, conn: Connection, parameters: Parameters) -> tuple[Compiled, list[Any]]:
+        """Return all rows as the driver has them. SQLite keeps what an unread row belongs to, even after a commit."""
+        compiled = self._in(conn.dialect)
+        return compiled, self._execute(conn, compiled, parameters).fetchall()
 
     def _in(self, dialect: Dialect) -> Compiled:
         compiled = self._compiled.get(dialect.name)

@@ -13,7 +13,7 @@ from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, active_time, assignments
 from waypost_server.db.transaction import UPSERTS, Tx
 
-_FIND = Prepared(select(active_time).where(active_time.c.user_id == bindparam("user")).with_for_update(key_share=True))
+_FIND = Prepared(select(active_time).where(active_time.c.user_id == bindparam("user")).with_for_update())
 _RECORD = Prepared(
     update(active_time)
     .where(active_time.c.user_id == bindparam("user"))

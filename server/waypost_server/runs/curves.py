@@ -26,7 +26,6 @@ class Spent(NamedTuple):
 
     episode: int
     kind: wire.Kind
-    queries: int
     units: int
     lo_units: int
     seconds: float
@@ -75,7 +74,7 @@ def _reached(results: Sequence[Result], rows: range) -> dict[str, list[float]]:
 def _ledger(tx: Tx, run: str) -> list[Spent]:
     sums = ledger_sums.c
     rows = tx.conn.execute(
-        select(sums.episode, sums.kind, sums.queries, sums.units, sums.lo_units, sums.seconds, sums.active_seconds)
+        select(sums.episode, sums.kind, sums.units, sums.lo_units, sums.seconds, sums.active_seconds)
         .where(sums.run_id == run)
         .order_by(sums.episode, sums.kind)
     )

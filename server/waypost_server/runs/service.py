@@ -96,7 +96,7 @@ def of_row(row: Record) -> wire.Run:
 _OF_ID = select(runs).where(runs.c.id == bindparam("run"), runs.c.deleted_at.is_(None))
 _FIND = Prepared(_OF_ID)
 _FIND_ACCOUNT = Prepared(select(runs).where(runs.c.id == bindparam("run")))
-# With `key_share`, as in all locks: to insert a row that refers to this one, no other transaction has to wait.
+# With `key_share`, whoever inserts a row that refers to this one does not have to wait (decision 43).
 _LOCK = Prepared(_OF_ID.with_for_update(key_share=True))
 _VIEW = Prepared(RUNS.where(runs.c.id == bindparam("run")))
 

@@ -1,9 +1,11 @@
 """Prepared statements: they return and raise what SQLAlchemy would, in the same transaction, on each database."""
 
+import sqlite3
 from collections.abc import Iterator
+from contextlib import closing
 
 import pytest
-from sqlalchemy import bindparam, insert, select, update
+from sqlalchemy import bindparam, insert, make_url, select, update
 from sqlalchemy.exc import IntegrityError
 from tests.server.kit import Service, query
 
@@ -75,6 +77,17 @@ def test_a_part_that_fails_is_undone_alone(db: Database) -> None:
 
     db.write_now(work)
     assert db.read_now(names) == ["cid"]
+
+
+def test_to_read_a_first_row_keeps_nothing_open(sqlite_url: str) -> None:
+    with closing(Database(sqlite_url)) as db:
+        for name in ("ann", "bea", "cid", "dan"):
+            db.write_now(lambda tx, name=name: add(tx, name))
+        assert db.read_now(lambda tx: NAMES.first(tx.conn, {})).name == "ann"
+        db.write_now(lambda tx: RENAME.run(tx.conn, {"old": "ann", "new": "eve"}))
+        with closing(sqlite3.connect(make_url(sqlite_url).database or "")) as other:
+            (is_busy, _, _) = other.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()
+        assert not is_busy, "the read still needs the log"
 
 
 def test_a_read_that_begins_with_one_sees_one_moment(db: Database) -> None:
