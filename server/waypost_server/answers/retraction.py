@@ -12,13 +12,12 @@ from waypost_server.db.tables import ledger as ledger_table
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import second
-from waypost_server.leases.assignments import find, view
+from waypost_server.leases.assignments import find, view, view_of_query
 from waypost_server.leases.service import grant
 from waypost_server.queries import service as queries
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
 from waypost_server.settings import Settings
-from waypost_server.webhooks import outbox
 
 
 def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Settings) -> wire.Assignment:
@@ -47,7 +46,8 @@ def retract(tx: Tx, assignment: int, user: int, body: wire.Retract, settings: Se
     if run.state == "finished":
         raise errors.RunFinished("The run is finished, so its answers can no longer be retracted.")
     take_back(tx, run, query, given, "leased")
-    return view(tx, grant(tx, query.id, user, settings.lease_seconds, tab=body.tab))
+    grant(tx, query.id, user, settings.lease_seconds, tab=body.tab)
+    return view_of_query(tx, query.id)
 
 
 def take_back(tx: Tx, run: Record, query: Record, given: Record, state: wire.QueryState) -> None:
@@ -66,10 +66,10 @@ def take_back(tx: Tx, run: Record, query: Record, given: Record, state: wire.Que
         .values(state=state, answer_id=None, differs=None, revision=query.revision + 1)
     )
     data = {"query": query.id, "answer": given.id, "units": to_units(given.units)}
-    event = events.add(tx, run.id, "retracted", data)
+    events.add(tx, run.id, "retracted", data)
     if run.gold_of is None:
-        more = {"event": event, "kind": query.kind, "episode": query.episode}
-        outbox.announce(tx, "answer.retracted", run.id, data | more)
+        more = {"kind": query.kind, "episode": query.episode}
+        events.announce(tx, "answer.retracted", run.id, data | more)
     tx.wake(queries.topic(query.id))
 
 

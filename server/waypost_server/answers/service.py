@@ -4,6 +4,7 @@ A late answer is refused but kept: it is stored without a revision, so it never 
 returned, not raised, because an exception would roll back the transaction.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from sqlalchemy import bindparam, select, update
@@ -18,11 +19,12 @@ from waypost_server.db import canonical
 from waypost_server.db.prepared import Prepared, Record
 from waypost_server.db.tables import answers, assignments
 from waypost_server.db.tables import queries as query_table
-from waypost_server.db.transaction import UPSERTS, Tx
+from waypost_server.db.tables import runs as runs_table
+from waypost_server.db.transaction import NOW, UPSERTS, Tx
 from waypost_server.gold import schedule, scoring, second
 from waypost_server.leases import active_time
 from waypost_server.leases import service as leases
-from waypost_server.leases.assignments import OwnAssignment, check_live, find, leased_after
+from waypost_server.leases.assignments import FIND, OwnAssignment, check_live, find, leased_after
 from waypost_server.leases.request import LeaseRequest
 from waypost_server.queries import checks, frame_uses
 from waypost_server.queries import service as queries
@@ -71,6 +73,16 @@ class Case:
 
 LOCK_QUERY = Prepared(select(query_table).where(query_table.c.id == bindparam("query")).with_for_update(key_share=True))
 ANSWER_OF = Prepared(select(answers).where(answers.c.assignment_id == bindparam("assignment")))
+_OF_ASSIGNMENT = select(assignments.c.query_id).where(assignments.c.id == bindparam("assignment")).scalar_subquery()
+_LOCK_ITS_RUN = Prepared(
+    select(runs_table)
+    .where(runs_table.c.id == select(query_table.c.run_id).where(query_table.c.id == _OF_ASSIGNMENT).scalar_subquery())
+    .where(runs_table.c.deleted_at.is_(None))
+    .with_for_update(key_share=True)
+)
+_LOCK_ITS_QUERY = Prepared(
+    select(query_table).where(query_table.c.id == _OF_ASSIGNMENT).with_for_update(key_share=True)
+)
 # Answers of two runs lock different rows, so two of them can come here with the same Idempotency-Key. The second waits
 # until the first is committed or undone.
 _INSERT = Prepared(
@@ -120,13 +132,23 @@ def answer(tx: Tx, post: Post, wanted: LeaseRequest | None) -> Outcome:
 
 
 def _open(tx: Tx, post: Post) -> Case:
-    assignment = find(tx, post.assignment, post.user, post.token)
-    run = runs.lock(tx, assignment.run)
-    query = LOCK_QUERY.one(tx.conn, {"query": assignment.query})
-    if not tx.one_writer:
-        assignment = find(tx, post.assignment, post.user, post.token)
     text = canonical.text(post.answer.model_dump(mode="json"))
+    of = {"assignment": post.assignment}
+    _look_ahead(tx, post, of)
+    locked, query = _LOCK_ITS_RUN.first(tx.conn, of), _LOCK_ITS_QUERY.first(tx.conn, of)
+    assignment = find(tx, post.assignment, post.user, post.token)
+    run = runs.existing(assignment.run, locked)
+    assert query is not None  # nobody deletes a query before its assignments
     return Case(assignment, run, query, queries.ASK.validate_json(query.ask), text, canonical.digest(text))
+
+
+def _look_ahead(tx: Tx, post: Post, of: Mapping[str, int]) -> None:
+    """Lock and read in one round trip: while the run is locked, its other answers wait."""
+    for statement in (_LOCK_ITS_RUN, _LOCK_ITS_QUERY, FIND):
+        statement.ahead(tx.conn, of)
+    active_time.FIND.ahead(tx.conn, {"user": post.user})
+    outbox.ACTIVE.ahead(tx.conn, {})
+    NOW.ahead(tx.conn, {})  # the time when all is locked
 
 
 def _check_key(tx: Tx, post: Post, case: Case) -> None:
@@ -199,9 +221,9 @@ def _accept(tx: Tx, post: Post, case: Case, wanted: LeaseRequest | None) -> wire
         "episode": case.query.episode,
         "units": to_units(cost.units),
     }
-    event = events.add(tx, case.run.id, "answered", data)
+    events.add(tx, case.run.id, "answered", data)
     if case.run.gold_of is None:
-        outbox.announce(tx, "answer.accepted", case.run.id, {"event": event, **data})
+        events.announce(tx, "answer.accepted", case.run.id, data)
     tx.wake(queries.topic(case.query.id), runs.answers_topic(case.run.id))
     return _receipt(stored, _next(tx, wanted))
 

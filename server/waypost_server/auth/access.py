@@ -144,7 +144,7 @@ ACCESS: Mapping[str, Access] = {
 """By operation of the API, as OpenAPI names it, or message of the play socket."""
 
 _USER = select(users.c.name, users.c.role, users.c.deactivated_at).where(users.c.id == bindparam("user"))
-_LOCKED_USER = Prepared(_USER.with_for_update(read=True))
+LOCKED_USER = Prepared(_USER.with_for_update(read=True))
 
 
 def check_role(access: Access, name: str, role: Role) -> None:
@@ -178,7 +178,7 @@ def check_still(tx: Tx, access: Access, user: int) -> Role:
         Unauthenticated: the user was deactivated.
         Forbidden: the user's role may not do this.
     """
-    row = _LOCKED_USER.one(tx.conn, {"user": user})
+    row = LOCKED_USER.one(tx.conn, {"user": user})
     if row.deactivated_at is not None:
         raise errors.Unauthenticated("This account was deactivated.")
     role: Role = row.role

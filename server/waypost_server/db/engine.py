@@ -12,16 +12,17 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, TypeVar
 
+import psycopg
 from sqlalchemy import Connection, Engine, create_engine, event, make_url
 from sqlalchemy.engine import URL
-from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
+from sqlalchemy.exc import ArgumentError, DBAPIError, InvalidatePoolError, NoSuchModuleError
 
 from waypost.tracing import Step
 from waypost_server import errors
 from waypost_server.db import audit, schema
 from waypost_server.db.counts import Count, Counts
 from waypost_server.db.notifications import Notifications
-from waypost_server.db.prepared import run_sql
+from waypost_server.db.sending import BEGIN, TOGETHER, line_of
 from waypost_server.db.transaction import Tx
 from waypost_server.db.wakeups import Topics
 from waypost_server.db.writer import CommittingThreads, GroupCommit, Load, Writer
@@ -29,8 +30,11 @@ from waypost_server.db.writer import CommittingThreads, GroupCommit, Load, Write
 T = TypeVar("T")
 
 READERS = 4
-WRITERS = 8  # PostgreSQL only
+WRITERS = 3  # PostgreSQL only: more would mostly wait for each other, as answers of one run do
+TRUSTED_SECONDS = 1.0  # PostgreSQL only: after a longer rest, a connection may be lost
 BUSY_SECONDS = 15  # SQLite only: how long a transaction waits while another process writes
+
+_USED = "last used"  # when a connection was returned to the pool, by the monotonic clock
 
 
 class BadDatabase(Exception):
@@ -57,7 +61,7 @@ class Database:
         if lite and not create:
             _require_file(self.url)
         self._engine, _ = _prepared(self.url, schema.create if create else schema.require)
-        self._read_engine = _sqlite(self.url, writes=False) if lite else _snapshots(self._engine)
+        self._read_engine = _sqlite(self.url, writes=False) if lite else _postgresql(self.url, writes=False)
         self._readers = ThreadPoolExecutor(READERS, "waypost-read")
         self._notifications = None if lite or committed is None else Notifications(self.url, committed)
         tell = self._notifications.committed if self._notifications else _nobody
@@ -82,7 +86,7 @@ class Database:
     def read_now(self, work: Callable[[Tx], T]) -> T:
         """Run reads against one consistent snapshot and return the result."""
         try:
-            with self._read_engine.connect() as conn:
+            with self._read_engine.begin() as conn:  # psycopg forgets all prepared statements with a rollback
                 return work(Tx(conn))
         except DBAPIError as error:
             raise errors.StorageFailed(f"The database could not be read: {_first_line(error)}") from error
@@ -159,7 +163,7 @@ def migrate(url: str, keep: Callable[[], None] = lambda: None) -> schema.Migrate
 
 def _prepared(url: URL, prepare: Callable[[Engine], T]) -> tuple[Engine, T]:
     """Return the engine that writes to a database, and the result of `prepare`; if that fails, close the engine."""
-    engine = _sqlite(url, writes=True) if url.get_backend_name() == "sqlite" else _postgresql(url)
+    engine = _sqlite(url, writes=True) if url.get_backend_name() == "sqlite" else _postgresql(url, writes=True)
     try:
         return engine, prepare(engine)
     except DBAPIError as error:
@@ -231,7 +235,7 @@ def _sqlite(url: URL, *, writes: bool) -> Engine:
 
     @event.listens_for(engine, "begin")
     def begun(conn: Connection) -> None:
-        run_sql(conn, "BEGIN IMMEDIATE" if writes else "BEGIN")
+        line_of(conn).run(conn, "BEGIN IMMEDIATE" if writes else "BEGIN")
 
     return engine
 
@@ -254,21 +258,50 @@ def _nobody(_: Topics) -> None:
     """Nobody waits for what is committed."""
 
 
-def _snapshots(engine: Engine) -> Engine:
-    """Return a PostgreSQL engine with the same connections, whose transactions read from one snapshot.
+# Of the sessions of those who write. Only these statements are run often enough to be prepared, and they all find their
+# rows by an index, so PostgreSQL need not look for a better plan for each set of parameters.
+_WRITES = "-c synchronous_commit=on -c plan_cache_mode=force_generic_plan"
+# One snapshot for all statements of a transaction; by default, each has its own.
+_READS = "-c default_transaction_isolation=repeatable\\ read -c default_transaction_read_only=on"
 
-    PostgreSQL's default, READ COMMITTED, gives each statement a snapshot of its own.
-    """
-    return engine.execution_options(isolation_level="REPEATABLE READ", postgresql_readonly=True)
 
-
-def _postgresql(url: URL) -> Engine:
-    options = "-c synchronous_commit=on -c statement_timeout=30000 -c idle_in_transaction_session_timeout=30000"
-    return create_engine(
+def _postgresql(url: URL, *, writes: bool) -> Engine:
+    limits = "-c statement_timeout=30000 -c idle_in_transaction_session_timeout=30000"
+    options = f"{_WRITES if writes else _READS} {limits}"
+    engine = create_engine(
         url,
-        pool_size=WRITERS + READERS,
+        pool_size=WRITERS if writes else READERS,
         hide_parameters=True,
         max_overflow=0,
-        pool_pre_ping=True,
-        connect_args={"options": options},
+        connect_args={"options": options, "autocommit": True},  # the line of a connection sends BEGIN and COMMIT
+        execution_options={TOGETHER: True},
     )
+
+    @event.listens_for(engine, "begin")
+    def begun(conn: Connection) -> None:
+        line = line_of(conn)
+        line.drop()  # what a transaction has left that was undone
+        line.run(conn, BEGIN)
+
+    @event.listens_for(engine, "before_cursor_execute")
+    def executing(conn: Connection, *_: Any) -> None:
+        line_of(conn).flush(conn)
+
+    @event.listens_for(engine, "commit")
+    def committing(conn: Connection) -> None:
+        line_of(conn).commit(conn)
+
+    @event.listens_for(engine, "checkin")
+    def returned(_driver: Any, record: Any) -> None:
+        record.info[_USED] = time.monotonic()
+
+    @event.listens_for(engine, "checkout")
+    def taken(driver: Any, record: Any, _pooled: Any) -> None:
+        """Try a connection out that nobody used for a while. SQLAlchemy's `pool_pre_ping` would do so each time."""
+        if time.monotonic() - record.info.get(_USED, time.monotonic()) > TRUSTED_SECONDS:
+            try:
+                engine.dialect.do_ping(driver)
+            except psycopg.Error as error:
+                raise InvalidatePoolError from error
+
+    return engine

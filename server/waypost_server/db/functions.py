@@ -11,7 +11,7 @@ DAY = 86_400.0  # seconds
 
 
 class clock(FunctionElement[float]):  # noqa: N801 - a SQL function
-    """The database's time: seconds since the epoch."""
+    """The database's time when the statement begins: seconds since the epoch."""
 
     inherit_cache = True
     type = Float()
@@ -24,7 +24,8 @@ def _sqlite_clock(*_: Any, **_options: Any) -> str:
 
 @compiles(clock, "postgresql")
 def _postgresql_clock(*_: Any, **_options: Any) -> str:
-    return "CAST(extract(epoch FROM clock_timestamp()) AS double precision)"
+    # Of the statement, not of the moment: so an index can find the rows before or after it.
+    return "CAST(extract(epoch FROM statement_timestamp()) AS double precision)"
 
 
 class json_text(FunctionElement[str]):  # noqa: N801 - a SQL function

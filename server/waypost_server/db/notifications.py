@@ -22,6 +22,7 @@ from waypost_server.db.wakeups import Topics
 
 CHANNEL = "waypost"
 MOST_TOPICS = 100  # in one notification, which PostgreSQL limits to 8,000 bytes
+PAUSE_SECONDS = 0.005  # between two notifications: each makes every process look; what comes meanwhile goes together
 AGAIN_SECONDS = 1.0  # between two attempts to connect
 LOOK_SECONDS = 1.0  # how long a listener that hears nothing takes to see that it should end
 
@@ -72,7 +73,7 @@ class Notifications:
             topics = sorted(self._next())
             for first in range(0, len(topics), MOST_TOPICS):
                 self._notify(conn, topics[first : first + MOST_TOPICS])
-            ends = self._closing.is_set()
+            ends = self._closing.wait(PAUSE_SECONDS)
         self._notify(conn, [])  # wakes this process's own listener, which ends then
 
     def _next(self) -> Topics:

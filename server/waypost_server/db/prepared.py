@@ -1,7 +1,7 @@
 """Statements that are compiled once and then run by the database driver itself.
 
-SQLAlchemy takes about 35 microseconds to run a small statement, the driver 2. A lease and an answer run some thirty, so
-the statements on their way are prepared. All others run as usual. Both kinds share the transaction.
+SQLAlchemy takes about 35 microseconds to run a small statement, SQLite's driver 2. A lease and an answer run some
+thirty, so the statements on their way are prepared. All others run as usual. Both kinds share the transaction.
 """
 
 from collections import namedtuple
@@ -11,7 +11,8 @@ from operator import itemgetter
 from typing import Any
 
 from sqlalchemy import Boolean, Connection, Delete, Dialect, Insert, Select, Update
-from sqlalchemy.exc import DBAPIError
+
+from waypost_server.db.sending import Line, Rows, line_of
 
 Statement = Select[Any] | Insert | Update | Delete
 Parameters = Mapping[str, Any]
@@ -19,7 +20,6 @@ Record = Any
 """A row: its columns are attributes."""
 
 _TRUTHS = {0: False, 1: True}
-_CURSOR = "the cursor of prepared statements"  # in the information that the pool keeps of a connection
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Compiled:
     """A statement in the words of one database."""
 
     sql: str
-    in_order: Callable[[Parameters], Any] | None  # arranges its parameters, where they have places instead of names
+    arrange: Callable[[Parameters], Any]  # arranges its parameters as the driver takes them: by place or by name
     constants: Parameters  # the values that the statement itself contains
     row: Any  # the named tuple of its rows; None if it returns none
     truths: Sequence[int]  # the columns that this database stores as 0 and 1
@@ -38,8 +38,7 @@ class Compiled:
         Raises:
             KeyError: one is missing.
         """
-        given = {**self.constants, **parameters} if self.constants else parameters
-        return given if self.in_order is None else self.in_order(given)
+        return self.arrange({**self.constants, **parameters} if self.constants else parameters)
 
     def row_of(self, values: Sequence[Any]) -> Any:
         """Return a row of the driver as a named tuple."""
@@ -66,8 +65,18 @@ class Prepared:
         self._compiled: dict[str, Compiled] = {}
 
     def run(self, conn: Connection, parameters: Parameters) -> None:
-        """Run a statement that returns no rows."""
-        self._execute(conn, self._in(conn.dialect), parameters)
+        """Run a statement whose rows nobody needs. On PostgreSQL, a later one sends it, or fails with it."""
+        line, compiled = self._line(conn)
+        line.run(conn, compiled.sql, compiled.arguments(parameters))
+
+    def ahead(self, conn: Connection, parameters: Parameters) -> None:
+        """Say that a read with these parameters will follow, so that PostgreSQL gets it together with others.
+
+        It reads, and locks, before those: what comes between the two must not change what it reads.
+        """
+        line, compiled = self._line(conn)
+        if line.lets_wait:
+            line.ahead(conn, compiled.sql, compiled.arguments(parameters))
 
     def rows(self, conn: Connection, parameters: Parameters) -> list[Record]:
         """Return all rows."""
@@ -89,10 +98,14 @@ class Prepared:
         _, found = self._read(conn, parameters)
         return found[0][0]
 
-    def _read(self, conn: Connection, parameters: Parameters) -> tuple[Compiled, list[Any]]:
-        """Return all rows as the driver has them. SQLite keeps what an unread row belongs to, even after a commit."""
-        compiled = self._in(conn.dialect)
-        return compiled, self._execute(conn, compiled, parameters).fetchall()
+    def _read(self, conn: Connection, parameters: Parameters) -> tuple[Compiled, Rows]:
+        line, compiled = self._line(conn)
+        return compiled, line.read(conn, compiled.sql, compiled.arguments(parameters))
+
+    def _line(self, conn: Connection) -> tuple[Line, Compiled]:
+        if not conn.in_transaction():
+            conn.begin()  # as SQLAlchemy does, which would otherwise not know of the transaction
+        return line_of(conn), self._in(conn.dialect)
 
     def _in(self, dialect: Dialect) -> Compiled:
         compiled = self._compiled.get(dialect.name)
@@ -108,7 +121,7 @@ class Prepared:
         names = [str(name) for name in returned.keys()]  # noqa: SIM118 - it is no dict
         return Compiled(
             str(sql),
-            _arranging(sql.positiontup or []) if sql.positional else None,
+            _by_place(sql.positiontup or []) if sql.positional else _by_name([*dict.fromkeys(sql.bind_names.values())]),
             {name: bind.value for bind, name in sql.bind_names.items() if not bind.required},
             namedtuple("Row", names) if names else None,
             ()
@@ -116,36 +129,15 @@ class Prepared:
             else [place for place, column in enumerate(returned) if isinstance(column.type, Boolean)],
         )
 
-    def _execute(self, conn: Connection, compiled: Compiled, parameters: Parameters) -> Any:
-        if not conn.in_transaction():
-            conn.begin()  # as SQLAlchemy does, which would otherwise not know of the transaction
-        return run_sql(conn, compiled.sql, compiled.arguments(parameters))
 
-
-def _arranging(order: Sequence[str]) -> Callable[[Parameters], Any]:
+def _by_place(order: Sequence[str]) -> Callable[[Parameters], Any]:
     """Return what arranges parameters in an order."""
     if len(order) > 1:
         return itemgetter(*order)  # in C, as these functions run for every statement
     return lambda given: [given[name] for name in order]
 
 
-def run_sql(conn: Connection, sql: str, arguments: Any = ()) -> Any:
-    """Let the driver run a statement, and return its cursor, which the next statement of the connection uses again.
-
-    Raises:
-        DBAPIError: as SQLAlchemy raises it, so that all statements fail alike.
-    """
-    pooled: Any = conn.connection
-    cursor = pooled.info.get(_CURSOR)
-    if cursor is None:  # psycopg takes as long to make a cursor as to run a small statement
-        cursor = pooled.info[_CURSOR] = pooled.dbapi_connection.cursor()
-    dialect = conn.dialect
-    try:
-        cursor.execute(sql, arguments)
-    except dialect.loaded_dbapi.Error as error:
-        lost = dialect.is_disconnect(error, pooled.dbapi_connection, cursor)
-        if lost:
-            conn.invalidate(error)
-        base = dialect.loaded_dbapi.Error
-        raise DBAPIError.instance(sql, None, error, base, connection_invalidated=lost, dialect=dialect) from error
-    return cursor
+def _by_name(names: Sequence[str]) -> Callable[[Parameters], Any]:
+    """Return what takes the parameters with these names, and leaves others out."""
+    values = _by_place(names)
+    return lambda given: dict(zip(names, values(given), strict=True))

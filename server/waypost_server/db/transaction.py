@@ -15,10 +15,11 @@ from waypost.tracing import Step
 from waypost_server.db.audit import Entry
 from waypost_server.db.counts import Count
 from waypost_server.db.functions import clock
-from waypost_server.db.prepared import Prepared, run_sql
+from waypost_server.db.prepared import Prepared
+from waypost_server.db.sending import line_of
 from waypost_server.db.wakeups import Topics
 
-_NOW = Prepared(select(clock().label("now")))
+NOW = Prepared(select(clock().label("now")))
 
 NANO = 1_000_000_000
 
@@ -42,7 +43,7 @@ class Tx:
     def now(self) -> float:
         """The database's time in seconds since the epoch, read once per transaction."""
         if self._now is None:
-            self._now = float(_NOW.value(self.conn, {}))
+            self._now = float(NOW.value(self.conn, {}))
         return self._now
 
     @property
@@ -53,19 +54,23 @@ class Tx:
     @contextmanager
     def part(self) -> Iterator[None]:
         """Run a part of the transaction. If it fails, only the part is undone."""
-        run_sql(self.conn, "SAVEPOINT part")
+        line = line_of(self.conn)
+        line.run(self.conn, "SAVEPOINT part")
+        line.flush(self.conn)  # what came before is not undone with the part
         recorded, counted, traced = len(self.recorded), self.counted.copy(), len(self.traced)
         try:
             yield
+            line.run(self.conn, "RELEASE SAVEPOINT part")
+            line.flush(self.conn)  # what fails does so in this part
         except BaseException:
             del self.recorded[recorded:]
             del self.traced[traced:]
             self.counted = counted
             if not self.conn.invalidated:
-                run_sql(self.conn, "ROLLBACK TO SAVEPOINT part")
-                run_sql(self.conn, "RELEASE SAVEPOINT part")
+                line.drop()
+                line.run(self.conn, "ROLLBACK TO SAVEPOINT part")
+                line.run(self.conn, "RELEASE SAVEPOINT part")
             raise
-        run_sql(self.conn, "RELEASE SAVEPOINT part")
 
     def upsert(self, table: Table) -> Any:
         """Return an INSERT with `on_conflict_do_update` and `on_conflict_do_nothing`."""

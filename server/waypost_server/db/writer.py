@@ -15,7 +15,7 @@ from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import DBAPIError, OperationalError
 
 from waypost_server import errors
-from waypost_server.db.prepared import run_sql
+from waypost_server.db.sending import line_of
 from waypost_server.db.wakeups import Topics
 
 T = TypeVar("T")
@@ -241,16 +241,17 @@ def _alone(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exce
 def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:
     """Run one job. A refusal changes nothing in the store; a failing database fails the whole batch."""
     woken: Topics = set()
-    run_sql(conn, "SAVEPOINT job")
+    line = line_of(conn)
+    line.run(conn, "SAVEPOINT job")
     try:
         result = work(conn, woken)
     except OperationalError:
         raise
     except Exception as error:
-        run_sql(conn, "ROLLBACK TO SAVEPOINT job")
-        run_sql(conn, "RELEASE SAVEPOINT job")
+        line.run(conn, "ROLLBACK TO SAVEPOINT job")
+        line.run(conn, "RELEASE SAVEPOINT job")
         return None, error
-    run_sql(conn, "RELEASE SAVEPOINT job")
+    line.run(conn, "RELEASE SAVEPOINT job")
     topics |= woken
     return result, None
 
@@ -290,7 +291,8 @@ class CommittingThreads:
             except OperationalError as error:
                 undone = getattr(error.orig, "sqlstate", None) in RETRIED
                 if not undone or attempt == ATTEMPTS - 1:
-                    raise _storage_failed(error, unsure=committing and not undone) from error
+                    # An error that the database itself reports means that nothing was committed.
+                    raise _storage_failed(error, unsure=committing and error.connection_invalidated) from error
                 time.sleep(random.uniform(0, 0.01 * 2**attempt))  # noqa: S311 - jitter
                 continue
             self.load.committed(1)

@@ -16,10 +16,9 @@ from sqlalchemy import Row, bindparam, exists, func, insert, select, update
 
 from waypost import wire
 from waypost_server.db import wakeups
-from waypost_server.db.prepared import Prepared
+from waypost_server.db.prepared import Record
 from waypost_server.db.tables import gold, gold_showings, gold_streams, skips
 from waypost_server.db.tables import queries as query_table
-from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import scoring, shadow
 from waypost_server.queries import service as queries
@@ -28,15 +27,6 @@ from waypost_server.runs import service as runs
 # A permutation of small numbers that differs between annotators, so that each gets gold queries in a different order.
 _ORDER = (gold.c.id * 7_919 + bindparam("user") * 104_729) % 65_537
 
-_own = run_table.alias("own")
-_shadow = run_table.alias("shadow")
-_DUE = Prepared(
-    select(_own.c.id.label("run"), _own.c.gold_rate, _shadow.c.id.label("shadow"), query_table.c.episode)
-    .add_columns(query_table.c.ordinal, query_table.c.priority, query_table.c.created_at)
-    .join(_own, _own.c.id == query_table.c.run_id)
-    .join(_shadow, _shadow.c.gold_of == _own.c.id)
-    .where(query_table.c.id == bindparam("query"), _own.c.gold_rate > 0)
-)
 _SHOWING = (
     select(gold_showings.c.query_id, query_table.c.state)
     .join(query_table, query_table.c.id == gold_showings.c.query_id)
@@ -78,10 +68,17 @@ class Position:
         return Fraction(int.from_bytes(digest[:8]), 2**64)
 
 
-def replace_with_gold(tx: Tx, user: int, kinds: Sequence[wire.Kind] | None, query: int) -> int:
-    """Return the query to lease when `query` is next: a gold query if one is due for this annotator, else `query`."""
-    due = _DUE.first(tx.conn, {"query": query})
-    if due is None or not _next_position(tx, user, due.run).is_gold(due.gold_rate):
+def replace_with_gold(tx: Tx, user: int, kinds: Sequence[wire.Kind] | None, query: int, due: Record) -> int:
+    """Return the query to lease when `query` is next: a gold query if one is due for this annotator, else `query`.
+
+    Args:
+        tx: the transaction.
+        user: the annotator.
+        kinds: the kinds of query that the annotator accepts; None for all.
+        query: the query that is next.
+        due: what `shadow.due` says of the query.
+    """
+    if due.gold_rate <= 0 or not _next_position(tx, user, due.run).is_gold(due.gold_rate):
         return query
     runs.lock(tx, due.shadow)
     chosen = _choose(tx, user, kinds, due.run)
@@ -127,7 +124,7 @@ def _open_showing(tx: Tx, user: int, item: int) -> int | None:
     return tx.conn.execute(_SHOWING.where(*open_now).correlate(None), {"user": user}).scalar()
 
 
-def _show(tx: Tx, user: int, chosen: Row[*tuple[Any, ...]], due: Row[Any]) -> int:
+def _show(tx: Tx, user: int, chosen: Row[*tuple[Any, ...]], due: Record) -> int:
     """Create the query of a new showing in the run's shadow. It looks like the query that it replaces."""
     disguised = queries.ASK.validate_json(chosen.ask).model_copy(
         update={"episode": due.episode, "ordinal": due.ordinal}

@@ -29,11 +29,6 @@ Kinds = tuple[wire.Kind, ...] | None
 _own = run_table.alias("own")
 _shadow = run_table.alias("shadow")
 _copy = query_table.alias("copy")
-_RUN = Prepared(
-    select(_own.c.id)
-    .join(query_table, query_table.c.run_id == _own.c.id)
-    .where(query_table.c.id == bindparam("query"), _own.c.second_answers > 0)
-)
 
 
 @dataclass(frozen=True)
@@ -69,12 +64,6 @@ def want(tx: Tx, run: Record, query: Record) -> None:
     wanted = tx.upsert(second_answers).values(of_query_id=query.id, run_id=run.id, done=False)
     tx.conn.execute(wanted.on_conflict_do_nothing())
     tx.wake(wakeups.QUEUE)
-
-
-def take_in_place_of(tx: Tx, user: int, kinds: Kinds, query: int) -> int | None:
-    """Return the copy to lease instead of a query of the same run; None if this annotator can give no second answer."""
-    run = _RUN.first(tx.conn, {"query": query})
-    return None if run is None else take(tx, user, kinds, run.id)
 
 
 def take(tx: Tx, user: int, kinds: Kinds, run: str | None) -> int | None:

@@ -7,16 +7,34 @@ one run each, so those of the run itself contain nothing from its shadow.
 import secrets
 from typing import Any
 
-from sqlalchemy import Row, func, insert, select
+from sqlalchemy import Row, bindparam, func, insert, or_, select
 
 from waypost import wire
 from waypost_server.db import canonical
-from waypost_server.db.prepared import Record
+from waypost_server.db.prepared import Prepared, Record
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
 
 _COPIED = ("user_id", "name", "algorithm", "seed", "vocabulary", "prices")
+
+_own = run_table.alias("own")
+_shadow = run_table.alias("shadow")
+DUE = Prepared(
+    select(_own.c.id.label("run"), _own.c.gold_rate, _own.c.second_answers, _shadow.c.id.label("shadow"))
+    .add_columns(query_table.c.episode, query_table.c.ordinal, query_table.c.priority, query_table.c.created_at)
+    .join(_own, _own.c.id == query_table.c.run_id)
+    .join(_shadow, _shadow.c.gold_of == _own.c.id)
+    .where(query_table.c.id == bindparam("query"), or_(_own.c.gold_rate > 0, _own.c.second_answers > 0))
+)
+
+
+def due(tx: Tx, query: int) -> Record | None:
+    """Return what the run of a query wants beside answers, its shadow, and the query's place; None if it wants nothing.
+
+    A run without a shadow has no gold query, and no query that waits for a second answer.
+    """
+    return DUE.first(tx.conn, {"query": query})
 
 
 def of(tx: Tx, run: str) -> str | None:

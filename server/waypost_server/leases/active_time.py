@@ -13,7 +13,7 @@ from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, active_time, assignments
 from waypost_server.db.transaction import UPSERTS, Tx
 
-_FIND = Prepared(select(active_time).where(active_time.c.user_id == bindparam("user")).with_for_update())
+FIND = Prepared(select(active_time).where(active_time.c.user_id == bindparam("user")).with_for_update())
 _RECORD = Prepared(
     update(active_time)
     .where(active_time.c.user_id == bindparam("user"))
@@ -49,7 +49,7 @@ def take(tx: Tx, user: int, idle_seconds: float) -> float:
 
 
 def _active(tx: Tx, user: int, idle_seconds: float) -> float:
-    row = _FIND.first(tx.conn, {"user": user})
+    row = FIND.first(tx.conn, {"user": user})
     if row is None:  # the lease was granted before this table existed
         return 0.0
     return float(row.active_seconds + min(max(tx.now - row.signalled_at, 0.0), idle_seconds))

@@ -8,7 +8,7 @@ from sqlalchemy import bindparam, exists, func, select
 from waypost import prices as pricing
 from waypost import wire
 from waypost_server import errors
-from waypost_server.db.prepared import Prepared
+from waypost_server.db.prepared import Prepared, Record
 from waypost_server.db.tables import IS_LIVE, answers, assignments, users
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as run_table
@@ -32,7 +32,7 @@ class OwnAssignment:
     has_answer: bool  # also one that came late or was retracted
 
 
-_FIND = Prepared(
+FIND = Prepared(
     select(assignments, query_table.c.run_id)
     .add_columns(exists().where(answers.c.assignment_id == assignments.c.id).label("has_answer"))
     .join(query_table, query_table.c.id == assignments.c.query_id)
@@ -40,7 +40,7 @@ _FIND = Prepared(
 )
 _LOCK = Prepared(select(query_table.c.id).where(query_table.c.id == bindparam("query")).with_for_update(key_share=True))
 _own = run_table.alias("own")
-_VIEW = Prepared(
+_VIEW = (
     select(assignments.c.id, assignments.c.token, assignments.c.leased_at, assignments.c.expires_at)
     .add_columns(query_table.c.id.label("query"), query_table.c.priority, query_table.c.created_at, query_table.c.ask)
     .add_columns(query_table.c.revision)
@@ -50,8 +50,9 @@ _VIEW = Prepared(
     .join(_own, _own.c.id == query_table.c.run_id)
     .join(run_table, run_table.c.id == func.coalesce(_own.c.gold_of, _own.c.id))  # a gold query looks like the others
     .join(users, users.c.id == assignments.c.user_id)
-    .where(assignments.c.id == bindparam("assignment"))
 )
+_VIEW_ONE = Prepared(_VIEW.where(assignments.c.id == bindparam("assignment")))
+_VIEW_OF_QUERY = Prepared(_VIEW.where(assignments.c.query_id == bindparam("query"), IS_LIVE))
 
 
 def find(tx: Tx, assignment: int, user: int, token: str) -> OwnAssignment:
@@ -60,7 +61,7 @@ def find(tx: Tx, assignment: int, user: int, token: str) -> OwnAssignment:
     Raises:
         NotFound, NotYours, WrongToken: the user does not have this assignment.
     """
-    row = _FIND.first(tx.conn, {"assignment": assignment})
+    row = FIND.first(tx.conn, {"assignment": assignment})
     if row is None:
         raise errors.NotFound(f"There is no assignment {assignment}.")
     if row.user_id != user:
@@ -124,7 +125,15 @@ def leased_after(tx: Tx, assignment: int) -> wire.Assignment | None:
 
 def view(tx: Tx, assignment: int) -> wire.Assignment:
     """Return a live assignment as its owner sees it."""
-    row = _VIEW.one(tx.conn, {"assignment": assignment})
+    return _viewed(tx, _VIEW_ONE.one(tx.conn, {"assignment": assignment}))
+
+
+def view_of_query(tx: Tx, query: int) -> wire.Assignment:
+    """Return the live assignment of a leased query as its owner sees it."""
+    return _viewed(tx, _VIEW_OF_QUERY.one(tx.conn, {"query": query}))
+
+
+def _viewed(tx: Tx, row: Record) -> wire.Assignment:
     ask = queries.ASK.validate_json(row.ask)
     return wire.Assignment(
         id=row.id,

@@ -4,18 +4,20 @@ An annotator is at work if they asked for a query recently or hold a lease. Requ
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 from sqlalchemy import and_, bindparam, delete, exists, func, literal, or_, select
 from sqlalchemy.sql.elements import ColumnElement
 
 from waypost import wire
+from waypost_server.db.functions import clock
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, assignments, presence, queries, skips
 from waypost_server.db.transaction import UPSERTS, Tx
 
 REFRESH_SECONDS = 3.0
 
-_ROW_OF = Prepared(select(presence).where(presence.c.user_id == bindparam("user")))
+ROW_OF = Prepared(select(presence).where(presence.c.user_id == bindparam("user")))
 _ASKED = ("run_id", "kinds", "asked_at")
 _RECORD = Prepared(
     {
@@ -31,8 +33,8 @@ _RECORD = Prepared(
 def record(tx: Tx, user: int, run: str | None, kinds: Sequence[wire.Kind] | None) -> None:
     """Record that an annotator asks for a query; while the annotator waits, write only every `REFRESH_SECONDS`."""
     names = None if kinds is None else ",".join(sorted(kinds))
-    known = _ROW_OF.first(tx.conn, {"user": user})
-    if known and (known.run_id, known.kinds) == (run, names) and known.asked_at > tx.now - REFRESH_SECONDS:
+    row = ROW_OF.first(tx.conn, {"user": user})
+    if row and (row.run_id, row.kinds) == (run, names) and row.asked_at > tx.now - REFRESH_SECONDS:
         return
     _RECORD.run(tx.conn, {"user_id": user, "run_id": run, "kinds": names, "asked_at": tx.now})
 
@@ -42,19 +44,16 @@ def forget(tx: Tx, after: float) -> None:
     tx.conn.execute(delete(presence).where(presence.c.asked_at > after))
 
 
-# The annotator asked after `since`, or holds a lease at `now` that was requested without `defer`.
-AT_WORK = or_(
-    presence.c.asked_at > bindparam("since"),
-    exists().where(
-        assignments.c.user_id == presence.c.user_id,
-        IS_LIVE,
-        assignments.c.expires_at > bindparam("now"),
-        assignments.c.deferring.is_(False),
-    ),
-)
-_OTHERS = Prepared(
+def _at_work(since: ColumnElement[Any], now: ColumnElement[Any]) -> ColumnElement[bool]:
+    """Return the condition that an annotator asked after `since`, or holds a lease not requested with `defer`."""
+    held = (assignments.c.user_id == presence.c.user_id, IS_LIVE, assignments.c.expires_at > now)
+    return or_(presence.c.asked_at > since, exists().where(*held, assignments.c.deferring.is_(False)))
+
+
+AT_WORK = _at_work(bindparam("since"), bindparam("now"))
+OTHERS = Prepared(
     select(func.count()).where(
-        AT_WORK,
+        _at_work(clock() - bindparam("seconds"), clock()),
         presence.c.user_id != bindparam("user"),
         or_(presence.c.run_id.is_(None), presence.c.run_id == func.coalesce(bindparam("run"), presence.c.run_id)),
     )
@@ -63,8 +62,7 @@ _OTHERS = Prepared(
 
 def others(tx: Tx, user: int, run: str | None, seconds: float) -> int:
     """Return how many other annotators at work accept queries of this run, or of any run."""
-    known = {"since": tx.now - seconds, "now": tx.now, "user": user, "run": run}
-    return int(_OTHERS.value(tx.conn, known))
+    return int(OTHERS.value(tx.conn, {"user": user, "run": run, "seconds": seconds}))
 
 
 def takes() -> ColumnElement[bool]:

@@ -11,10 +11,11 @@ from typing import Any
 from sqlalchemy import Select, and_, bindparam, exists, false, not_, or_, select
 from sqlalchemy.sql.elements import ColumnElement
 
-from waypost_server.db.prepared import Prepared
+from waypost_server.db.prepared import Prepared, Record
 from waypost_server.db.tables import IS_OPEN, answers, queries, runs, skips
 from waypost_server.db.tables import presence as present
 from waypost_server.db.transaction import Tx
+from waypost_server.gold import shadow
 from waypost_server.leases import presence
 from waypost_server.leases.request import Kinds, LeaseRequest
 
@@ -35,8 +36,6 @@ class Candidates:
         last = (
             queries.c.run_id == bindparam("last_run"),
             queries.c.episode == bindparam("last_episode"),
-            queries.c.run_priority >= bindparam("run_priority"),
-            queries.c.priority >= bindparam("priority"),
         )
         return cls(
             Prepared(offered.limit(bindparam("most"))),
@@ -47,7 +46,7 @@ class Candidates:
         )
 
 
-_LAST_ANSWERED = Prepared(
+LAST_ANSWERED = Prepared(
     select(queries.c.run_id, queries.c.episode)
     .join(answers, answers.c.query_id == queries.c.id)
     .join(runs, runs.c.id == queries.c.run_id)
@@ -71,21 +70,29 @@ def select_next(tx: Tx, request: LeaseRequest) -> int | None:
     parameters = request.parameters(tx.now)
     if request.ahead and not _leaves_enough(tx, candidates, parameters, n_others):
         return None
+    last = LAST_ANSWERED.first(tx.conn, {"user": request.user})
+    if last is not None:
+        parameters |= {"last_run": last.run_id, "last_episode": last.episode}
+        candidates.follow_up.ahead(tx.conn, parameters)
     chosen = candidates.first.first(tx.conn, parameters)
     if chosen is None:
         return None
-    last = _LAST_ANSWERED.first(tx.conn, parameters)
     if last is not None:
-        parameters |= {"last_run": last.run_id, "last_episode": last.episode}
-        parameters |= {"run_priority": chosen.run_priority, "priority": chosen.priority}
-        chosen = candidates.follow_up.first(tx.conn, parameters) or chosen
+        follow_up = candidates.follow_up.first(tx.conn, parameters)
+        if follow_up is not None and _priorities(follow_up) >= _priorities(chosen):
+            chosen = follow_up
     if tx.one_writer:
         return int(chosen.id)
     # Another transaction may be leasing the same query: lock it, or the next one that is free.
+    shadow.DUE.ahead(tx.conn, {"query": chosen.id})
     locked = _LOCK_ONE.first(tx.conn, {"query": chosen.id, "user": request.user})
     if locked is None:
         locked = candidates.unlocked.first(tx.conn, parameters)
     return None if locked is None else int(locked.id)
+
+
+def _priorities(candidate: Record) -> tuple[int, int]:
+    return candidate.run_priority, candidate.priority
 
 
 def select_several(tx: Tx, request: LeaseRequest, most: int) -> list[int]:

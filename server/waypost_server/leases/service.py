@@ -7,14 +7,15 @@ from sqlalchemy import bindparam, insert, select, update
 from sqlalchemy.sql.elements import ColumnElement
 
 from waypost import wire
-from waypost_server.auth.access import ACCESS, check_still
+from waypost_server.auth.access import ACCESS, LOCKED_USER, check_still
 from waypost_server.db import wakeups
+from waypost_server.db.functions import clock
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, assignments, queries, skips
-from waypost_server.db.transaction import Tx
-from waypost_server.gold import schedule, second
+from waypost_server.db.transaction import NOW, Tx
+from waypost_server.gold import schedule, second, shadow
 from waypost_server.leases import active_time, closed_tabs, presence, selection
-from waypost_server.leases.assignments import find_live, view
+from waypost_server.leases.assignments import find_live, view_of_query
 from waypost_server.leases.request import LeaseRequest
 from waypost_server.runs import service as runs
 from waypost_server.settings import Settings
@@ -23,13 +24,13 @@ SLEW_SECONDS = 5.0  # by how much a clock may go back without an effect on lease
 
 _SET_LEASED = Prepared(update(queries).where(queries.c.id == bindparam("query")).values(state="leased"))
 _INSERT = Prepared(
-    insert(assignments).returning(assignments.c.id),
+    insert(assignments),
     ["query_id", "user_id", "token", "state", "deferring", "after_id", "tab", "leased_at", "expires_at"],
 )
 _EXPIRED = Prepared(
     select(queries.c.id)
     .join(assignments, assignments.c.query_id == queries.c.id)
-    .where(IS_LIVE, assignments.c.expires_at <= bindparam("now"))
+    .where(IS_LIVE, assignments.c.expires_at <= clock())
     .with_for_update(skip_locked=True, key_share=True, of=queries)
 )
 
@@ -64,6 +65,7 @@ def lease_batch(tx: Tx, request: LeaseRequest, count: int) -> list[wire.Assignme
 
 
 def _begin(tx: Tx, request: LeaseRequest) -> None:
+    _look_ahead(tx, request)
     expire(tx)
     check_still(tx, ACCESS["lease"], request.user)
     if request.run is not None:
@@ -72,17 +74,34 @@ def _begin(tx: Tx, request: LeaseRequest) -> None:
         presence.record(tx, request.user, request.run, request.kinds)
 
 
+def _look_ahead(tx: Tx, request: LeaseRequest) -> None:
+    """Lock and read in one round trip what every lease needs."""
+    user = {"user": request.user}
+    LOCKED_USER.ahead(tx.conn, user)
+    _EXPIRED.ahead(tx.conn, {})
+    if request.run is not None:
+        runs.FIND.ahead(tx.conn, {"run": request.run})
+    presence.ROW_OF.ahead(tx.conn, user)
+    presence.OTHERS.ahead(tx.conn, {**user, "run": request.run, "seconds": request.presence_seconds})
+    selection.LAST_ANSWERED.ahead(tx.conn, user)
+    NOW.ahead(tx.conn, {})
+
+
 def _hand_out(tx: Tx, request: LeaseRequest, query: int) -> wire.Assignment:
     """Lease a selected query, or a query of the run's shadow in its place: for a second answer, or gold."""
-    copy = None if request.defer > 0 else second.take_in_place_of(tx, request.user, request.kinds, query)
-    if copy is not None:
-        tx.wake(wakeups.QUEUE)  # `query` is free for other annotators who wait
-        return _grant(tx, request, copy)
-    return _grant(tx, request, schedule.replace_with_gold(tx, request.user, request.kinds, query))
+    due = shadow.due(tx, query)
+    if due is None:
+        return _grant(tx, request, query)
+    if due.second_answers > 0 and request.defer == 0:
+        copy = second.take(tx, request.user, request.kinds, due.run)
+        if copy is not None:
+            tx.wake(wakeups.QUEUE)  # `query` is free for other annotators who wait
+            return _grant(tx, request, copy)
+    return _grant(tx, request, schedule.replace_with_gold(tx, request.user, request.kinds, query, due))
 
 
 def _grant(tx: Tx, request: LeaseRequest, query: int) -> wire.Assignment:
-    assignment = grant(
+    grant(
         tx,
         query,
         request.user,
@@ -91,9 +110,9 @@ def _grant(tx: Tx, request: LeaseRequest, query: int) -> wire.Assignment:
         after=request.after,
         tab=request.tab,
     )
-    leased = view(tx, assignment)
+    leased = view_of_query(tx, query)
     ask = leased.query.ask
-    tx.trace("lease", leased.run.id, ask.episode, query=query, kind=ask.kind, assignment=assignment)
+    tx.trace("lease", leased.run.id, ask.episode, query=query, kind=ask.kind, assignment=leased.id)
     return leased
 
 
@@ -106,8 +125,8 @@ def grant(
     deferring: bool = False,
     after: int | None = None,
     tab: str | None = None,
-) -> int:
-    """Lease a query to an annotator for `seconds`; return the assignment's id.
+) -> None:
+    """Lease a query to an annotator for `seconds`.
 
     The store allows one live assignment per query (`uq_assignments_live`).
     """
@@ -125,12 +144,12 @@ def grant(
         "leased_at": tx.now,
         "expires_at": tx.now + seconds,
     }
-    return int(_INSERT.value(tx.conn, assignment))
+    _INSERT.run(tx.conn, assignment)
 
 
 def expire(tx: Tx) -> int:
     """End the leases whose time is over and reopen their queries; return how many."""
-    ids = [row.id for row in _EXPIRED.rows(tx.conn, {"now": tx.now})]
+    ids = [row.id for row in _EXPIRED.rows(tx.conn, {})]
     if ids:
         _reopen(tx, ids, "expired", [assignments.c.expires_at <= tx.now])
     return len(ids)

@@ -12,11 +12,12 @@ from waypost import wire
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import events
 from waypost_server.db.transaction import Tx
+from waypost_server.webhooks import outbox
 
 PAGE = 500  # events read at once
 ANY = "events"  # the topic that a new event of any run wakes
 
-_INSERT = Prepared(insert(events).returning(events.c.id), ["run_id", "event", "data", "created_at"])
+_INSERT = Prepared(insert(events), ["run_id", "event", "data", "created_at"])
 _NEWEST = select(func.coalesce(func.max(events.c.id), 0))
 _RUNNING = select(cast(func.pg_current_snapshot(), Text))  # "xmin:xmax:xid,xid"; both selects have one snapshot
 
@@ -45,14 +46,27 @@ def topic(run: str) -> str:
     return f"events:{run}"
 
 
-def add(tx: Tx, run: str, event: str, data: Mapping[str, Any]) -> int:
-    """Record a change and return its id.
+def add(tx: Tx, run: str, event: str, data: Mapping[str, Any]) -> None:
+    """Record a change; then it is the `newest` of the run.
 
     The caller has locked the run's row, so the ids of a run grow in the order of the commits.
     """
     row = {"run_id": run, "event": event, "data": to_json(data).decode(), "created_at": tx.now}
     tx.wake(topic(run), ANY)
-    return int(_INSERT.value(tx.conn, row))
+    _INSERT.run(tx.conn, row)
+
+
+def announce(tx: Tx, topic: wire.WebhookTopic, run: str, data: Mapping[str, Any]) -> None:
+    """Announce the newest event of a run to the webhooks with this topic.
+
+    Args:
+        tx: the transaction of the change.
+        topic: the kind of change.
+        run: the run's id.
+        data: the fields of the message's data, except `run` and `event`.
+    """
+    if webhooks := outbox.wanting(tx, topic):
+        outbox.announce(tx, webhooks, topic, run, {"event": newest(tx, run), **data})
 
 
 def newest(tx: Tx, run: str) -> int:

@@ -18,7 +18,6 @@ from waypost_server.db.tables import IS_LIVE, assignments, episodes, queries, ru
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import events, ledger
 from waypost_server.runs.ledger import Account
-from waypost_server.webhooks import outbox
 
 TRAILING = 100  # the success rate is over this many test episodes
 UNANSWERED = ("open", "leased")
@@ -94,15 +93,23 @@ def of_row(row: Record) -> wire.Run:
 
 
 _OF_ID = select(runs).where(runs.c.id == bindparam("run"), runs.c.deleted_at.is_(None))
-_FIND = Prepared(_OF_ID)
+FIND = Prepared(_OF_ID)
 _FIND_ACCOUNT = Prepared(select(runs).where(runs.c.id == bindparam("run")))
 # With `key_share`, whoever inserts a row that refers to this one does not have to wait (decision 43).
-_LOCK = Prepared(_OF_ID.with_for_update(key_share=True))
+LOCK = Prepared(_OF_ID.with_for_update(key_share=True))
 _VIEW = Prepared(RUNS.where(runs.c.id == bindparam("run")))
 
 
 def _one(tx: Tx, statement: Prepared, run: str) -> Record:
-    row = statement.first(tx.conn, {"run": run}) if _ID.fullmatch(run) else None
+    return existing(run, statement.first(tx.conn, {"run": run}) if _ID.fullmatch(run) else None)
+
+
+def existing(run: str, row: Record | None) -> Record:
+    """Return the row of a run, which is None if it was deleted or never existed.
+
+    Raises:
+        NotFound: there is no such run.
+    """
     if row is None:
         raise errors.NotFound(f"There is no run {run!r}.")
     return row
@@ -114,7 +121,7 @@ def find(tx: Tx, run: str) -> Record:
     Raises:
         NotFound: there is no such run.
     """
-    return _one(tx, _FIND, run)
+    return _one(tx, FIND, run)
 
 
 def find_account(tx: Tx, run: str) -> Record:
@@ -128,7 +135,7 @@ def find_account(tx: Tx, run: str) -> Record:
 
 def lock(tx: Tx, run: str) -> Record:
     """Return a run's row, locked, so that its account, answers and events change in one transaction at a time."""
-    return _one(tx, _LOCK, run)
+    return _one(tx, LOCK, run)
 
 
 def lock_own(tx: Tx, run: str, user: int) -> Record:
@@ -200,8 +207,8 @@ def create(tx: Tx, wanted: wire.RunCreate, user: int) -> wire.Run:
             created_at=tx.now,
         )
     )
-    event = events.add(tx, run, "run", {"state": "running"})
-    outbox.announce(tx, "run.state", run, {"event": event, "name": wanted.name, "state": "running"})
+    events.add(tx, run, "run", {"state": "running"})
+    events.announce(tx, "run.state", run, {"name": wanted.name, "state": "running"})
     return view(tx, run)
 
 
@@ -234,10 +241,10 @@ def patch(tx: Tx, run: str, wanted: wire.RunPatch, user: int) -> wire.Run:
         changes |= _new_state(tx, row, wanted.state)
     if changes:
         tx.conn.execute(update(runs).where(runs.c.id == run).values(**changes))
-        event = events.add(tx, run, "run", {"state": changes.get("state", row.state)})
+        events.add(tx, run, "run", {"state": changes.get("state", row.state)})
         if "state" in changes:
             name = changes.get("name", row.name)
-            outbox.announce(tx, "run.state", run, {"event": event, "name": name, "state": changes["state"]})
+            events.announce(tx, "run.state", run, {"name": name, "state": changes["state"]})
     return view(tx, run)
 
 

@@ -2,7 +2,7 @@
 
 import json
 import secrets
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any
 
@@ -19,25 +19,29 @@ TOPIC = "webhooks"  # the topic that a new message wakes
 _MESSAGE: TypeAdapter[wire.WebhookMessage] = TypeAdapter(wire.WebhookMessage)
 _INSERT = insert(deliveries).returning(deliveries.c.id)
 # The key lock keeps an administrator from deleting a webhook between this look and the insertion of its message.
-_ACTIVE = Prepared(
+ACTIVE = Prepared(
     select(webhooks.c.id, webhooks.c.topics).where(webhooks.c.active).with_for_update(read=True, key_share=True)
 )
 
 
-def announce(tx: Tx, topic: wire.WebhookTopic, run: str, data: Mapping[str, Any]) -> None:
-    """Queue a message for every active webhook with this topic.
+def wanting(tx: Tx, topic: wire.WebhookTopic) -> list[int]:
+    """Return the active webhooks with this topic, locked."""
+    return [row.id for row in ACTIVE.rows(tx.conn, {}) if topic in json.loads(row.topics)]
+
+
+def announce(tx: Tx, webhooks: Sequence[int], topic: wire.WebhookTopic, run: str, data: Mapping[str, Any]) -> None:
+    """Queue a message for each of these webhooks.
 
     Args:
         tx: the transaction of the change.
+        webhooks: their ids.
         topic: the kind of change.
         run: the id of the run that changed.
         data: the fields of the message's data, except `run`.
     """
-    wanted = [row.id for row in _ACTIVE.rows(tx.conn, {}) if topic in json.loads(row.topics)]
-    if wanted:
-        body = _body(topic, tx.now, {"run": run, **data})
-        for webhook in wanted:
-            _queue(tx, webhook, topic, body, run)
+    body = _body(topic, tx.now, {"run": run, **data})
+    for webhook in webhooks:
+        _queue(tx, webhook, topic, body, run)
 
 
 def ping(tx: Tx, webhook: int) -> int:

@@ -13,7 +13,7 @@ from tests.server.kit import Json, Service, in_process, query, right_answer, tog
 
 from waypost import wire
 from waypost_server.answers import service as answers
-from waypost_server.db import prepared
+from waypost_server.db import sending
 from waypost_server.db.transaction import Tx
 from waypost_server.leases import service as leases
 from waypost_server.leases.request import LeaseRequest
@@ -183,16 +183,16 @@ def test_a_query_that_is_skipped_while_its_annotator_leases_does_not_come_back(
         first, second = service.learner.ask(service.learner.create_run(), query(), query(ordinal=1))
         user = service.annotator.get("/me")["id"]
         wanted = LeaseRequest.of(wire.Lease(), user, Settings())
-        run_sql, engine = prepared.run_sql, create_engine(service.db.url)
+        read, engine = sending.Single.read, create_engine(service.db.url)
 
-        def skipping(conn: Connection, statement: str, arguments: Any = ()) -> Any:
+        def skipping(line: sending.Single, conn: Connection, statement: str, arguments: Any) -> Any:
             if conn.engine is engine and "ORDER BY answers.id DESC" in statement:  # selected, but not locked yet
                 held = service.annotator.lease()
                 assert held["query"]["id"] == first["id"]
                 service.annotator.release(held, skip=True)
-            return run_sql(conn, statement, arguments)
+            return read(line, conn, statement, arguments)
 
-        monkeypatch.setattr(prepared, "run_sql", skipping)
+        monkeypatch.setattr(sending.Single, "read", skipping)
         with engine.begin() as conn:
             leased = leases.lease(Tx(conn), wanted)
         engine.dispose()

@@ -6,22 +6,22 @@ import pytest
 from sqlalchemy import Connection
 from tests.server.kit import Json, Service, query
 
-from waypost_server.db import prepared
+from waypost_server.db.sending import Single
 
 
 def plans(service: Service, wish: Json) -> list[str]:
     """Return the plan of each statement by which a lease request selects a query."""
     found: list[str] = []
-    run_sql = prepared.run_sql
+    read = Single.read
 
-    def explaining(conn: Connection, statement: str, arguments: Any = ()) -> Any:
+    def explaining(line: Single, conn: Connection, statement: str, arguments: Any) -> Any:
         if "ORDER BY queries.run_priority" in statement:
-            rows = run_sql(conn, f"EXPLAIN QUERY PLAN {statement}", arguments).fetchall()
+            rows = read(line, conn, f"EXPLAIN QUERY PLAN {statement}", arguments)
             found.append("\n".join(row[3] for row in rows))
-        return run_sql(conn, statement, arguments)
+        return read(line, conn, statement, arguments)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(prepared, "run_sql", explaining)
+        patch.setattr(Single, "read", explaining)
         service.annotator.lease(**wish)
     return found
 

@@ -166,7 +166,8 @@ def test_a_change_that_is_committed_after_a_newer_one_is_announced_too(cluster: 
             lines = reply.iter_lines()
             assert next(lines) == "retry: 1000"
             time.sleep(0.5)  # the stream has read where it begins
-            older = run_events.add(Tx(slow), first, "run", {"state": "paused"})
+            run_events.add(Tx(slow), first, "run", {"state": "paused"})
+            older = run_events.newest(Tx(slow), first)
             service.learner.patch(second, state="paused")
             newer = next(line for line in lines if line.startswith("data: "))
             assert json.loads(newer.removeprefix("data: "))["newest"] > older
