@@ -12,10 +12,9 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, TypeVar
 
-import psycopg
 from sqlalchemy import Connection, Engine, create_engine, event, make_url
 from sqlalchemy.engine import URL
-from sqlalchemy.exc import ArgumentError, DBAPIError, InvalidatePoolError, NoSuchModuleError
+from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
 
 from waypost.tracing import Step
 from waypost_server import errors
@@ -31,10 +30,7 @@ T = TypeVar("T")
 
 READERS = 4
 WRITERS = 3  # PostgreSQL only: more would mostly wait for each other, as answers of one run do
-TRUSTED_SECONDS = 1.0  # PostgreSQL only: after a longer rest, a connection may be lost
 BUSY_SECONDS = 15  # SQLite only: how long a transaction waits while another process writes
-
-_USED = "last used"  # when a connection was returned to the pool, by the monotonic clock
 
 
 class BadDatabase(Exception):
@@ -85,11 +81,14 @@ class Database:
 
     def read_now(self, work: Callable[[Tx], T]) -> T:
         """Run reads against one consistent snapshot and return the result."""
-        try:
-            with self._read_engine.begin() as conn:  # psycopg forgets all prepared statements with a rollback
-                return work(Tx(conn))
-        except DBAPIError as error:
-            raise errors.StorageFailed(f"The database could not be read: {_first_line(error)}") from error
+        for connections in range(READERS, -1, -1):  # each may have been lost
+            try:
+                with self._read_engine.begin() as conn:  # psycopg forgets all prepared statements with a rollback
+                    return work(Tx(conn))
+            except DBAPIError as error:
+                if not (error.connection_invalidated and connections):
+                    raise errors.StorageFailed(f"The database could not be read: {_first_line(error)}") from error
+        raise AssertionError("unreachable")
 
     async def write(self, work: Callable[[Tx], T]) -> T:
         """Run a transaction off the event loop and return its result once it is on disk.
@@ -290,18 +289,5 @@ def _postgresql(url: URL, *, writes: bool) -> Engine:
     @event.listens_for(engine, "commit")
     def committing(conn: Connection) -> None:
         line_of(conn).commit(conn)
-
-    @event.listens_for(engine, "checkin")
-    def returned(_driver: Any, record: Any) -> None:
-        record.info[_USED] = time.monotonic()
-
-    @event.listens_for(engine, "checkout")
-    def taken(driver: Any, record: Any, _pooled: Any) -> None:
-        """Try a connection out that nobody used for a while. SQLAlchemy's `pool_pre_ping` would do so each time."""
-        if time.monotonic() - record.info.get(_USED, time.monotonic()) > TRUSTED_SECONDS:
-            try:
-                engine.dialect.do_ping(driver)
-            except psycopg.Error as error:
-                raise InvalidatePoolError from error
 
     return engine

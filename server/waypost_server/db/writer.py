@@ -257,7 +257,7 @@ def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[An
 
 
 class CommittingThreads:
-    """A few threads: each job is a transaction by itself, retried after a serialization failure or a deadlock."""
+    """A few threads: each job is a transaction by itself. It is run again if the database undid it."""
 
     def __init__(self, engine: Engine, committed: Callable[[Topics], None], threads: int) -> None:
         self._engine = engine
@@ -289,10 +289,11 @@ class CommittingThreads:
                     result = work(conn, topics)
                     committing = True
             except OperationalError as error:
-                undone = getattr(error.orig, "sqlstate", None) in RETRIED
+                lost = error.connection_invalidated
+                undone = getattr(error.orig, "sqlstate", None) in RETRIED or (lost and not committing)
                 if not undone or attempt == ATTEMPTS - 1:
                     # An error that the database itself reports means that nothing was committed.
-                    raise _storage_failed(error, unsure=committing and error.connection_invalidated) from error
+                    raise _storage_failed(error, unsure=committing and lost) from error
                 time.sleep(random.uniform(0, 0.01 * 2**attempt))  # noqa: S311 - jitter
                 continue
             self.load.committed(1)

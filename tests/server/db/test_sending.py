@@ -129,6 +129,16 @@ def test_a_read_leaves_its_connection_the_statements_that_it_has_prepared(db: Da
     assert all(db.read_now(n_prepared) for _ in range(8))
 
 
+@pytest.mark.parametrize("by_a_reader", [True, False])
+def test_a_connection_that_is_lost_costs_nobody_a_request(db: Database, by_a_reader: bool) -> None:
+    others = "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE pid != pg_backend_pid()"
+    run = db.read_now if by_a_reader else db.write_now
+    db.write_now(lambda tx: add(tx, "ann"))
+    db.read_now(names)
+    run(lambda tx: tx.conn.execute(text(f"{others} AND datname = current_database()")).all())
+    assert db.read_now(names) == db.write_now(names) == ["ann"]
+
+
 def test_a_lease_takes_five_round_trips_and_an_answer_three(cluster: Cluster, monkeypatch: pytest.MonkeyPatch) -> None:
     sent: list[int] = []
     flush = Together.flush
