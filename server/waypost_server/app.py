@@ -7,6 +7,7 @@ from contextlib import asynccontextmanager
 from functools import cache
 
 from fastapi import APIRouter, FastAPI
+from sqlalchemy.exc import DBAPIError
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.routing import BaseRoute
 from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
@@ -140,5 +141,5 @@ async def _end_expired_leases(context: Context) -> None:
         await asyncio.sleep(context.settings.reap_seconds)
         try:
             await context.db.write(_reap)
-        except StorageFailed as error:
+        except (StorageFailed, DBAPIError) as error:
             log.warning("Expired leases could not be ended: %s", error)

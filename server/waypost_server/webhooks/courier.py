@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from functools import partial
 
 import httpcore2
+from sqlalchemy.exc import DBAPIError
 from standardwebhooks import Webhook
 
 from waypost_server.db import wakeups
@@ -54,7 +55,7 @@ async def _deliver(context: Context) -> None:
                     forgot_at = time.monotonic()
                 if await context.db.read(queue.is_due):
                     claim = await context.db.write(partial(queue.claim, seconds=settings.webhook_seconds))
-            except StorageFailed as error:
+            except (StorageFailed, DBAPIError) as error:
                 log.warning("Webhooks could not be read: %s", error)
             if claim is None:
                 places.release()

@@ -17,8 +17,8 @@ def answered(service: Service, run: str) -> int:
 
 
 def break_leasing(service: Service) -> None:
-    """Take away a table that leasing reads and answering does not."""
-    service.db.write_now(lambda tx: tx.conn.exec_driver_sql("ALTER TABLE presence RENAME TO gone"))
+    """Take away a table that leasing reads, and neither answering nor the tasks of the server do."""
+    service.db.write_now(lambda tx: tx.conn.exec_driver_sql("ALTER TABLE skips RENAME TO gone"))
 
 
 def deactivate(service: Service) -> None:

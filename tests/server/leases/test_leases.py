@@ -163,6 +163,21 @@ def test_a_clock_that_is_set_back_a_little_takes_no_query_away(database_url: str
         service.annotator.answer(held)
 
 
+def test_leases_end_again_after_an_error_of_the_database(database_url: str) -> None:
+    def rename(old: str, new: str) -> None:
+        service.db.write_now(lambda tx: tx.conn.exec_driver_sql(f"ALTER TABLE {old} RENAME TO {new}"))
+
+    with in_process(database_url, reap_seconds=0.1) as service:
+        service.learner.ask(service.learner.create_run(), query())
+        held = service.annotator.lease()
+        rename("presence", "gone")
+        time.sleep(0.5)
+        rename("gone", "presence")
+        service.db.write_now(lambda tx: set_back(tx, 3_600.0))
+        again = service.user("otto", "annotator").lease(wait=30, defer=1)
+        assert again["query"]["id"] == held["query"]["id"]
+
+
 def set_back(tx: Tx, seconds: float) -> None:
     """Leave a store as it is after its clock was set back."""
     later = {column: column + seconds for column in (assignments.c.leased_at, assignments.c.expires_at)}
