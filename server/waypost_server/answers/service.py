@@ -20,7 +20,7 @@ from waypost_server.db.prepared import Prepared, Record
 from waypost_server.db.tables import answers, assignments
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as runs_table
-from waypost_server.db.transaction import NOW, UPSERTS, Tx
+from waypost_server.db.transaction import UPSERTS, Tx
 from waypost_server.gold import schedule, scoring, second
 from waypost_server.leases import active_time
 from waypost_server.leases import service as leases
@@ -148,7 +148,7 @@ def _look_ahead(tx: Tx, post: Post, of: Mapping[str, int]) -> None:
         statement.ahead(tx.conn, of)
     active_time.FIND.ahead(tx.conn, {"user": post.user})
     outbox.ACTIVE.ahead(tx.conn, {})
-    NOW.ahead(tx.conn, {})  # the time when all is locked
+    tx.read_time_ahead()  # when all is locked
 
 
 def _check_key(tx: Tx, post: Post, case: Case) -> None:

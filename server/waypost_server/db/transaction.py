@@ -19,7 +19,7 @@ from waypost_server.db.prepared import Prepared
 from waypost_server.db.sending import line_of
 from waypost_server.db.wakeups import Topics
 
-NOW = Prepared(select(clock().label("now")))
+_NOW = Prepared(select(clock().label("now")))
 
 NANO = 1_000_000_000
 
@@ -43,8 +43,13 @@ class Tx:
     def now(self) -> float:
         """The database's time in seconds since the epoch, read once per transaction."""
         if self._now is None:
-            self._now = float(NOW.value(self.conn, {}))
+            self._now = float(_NOW.value(self.conn, {}))
         return self._now
+
+    def read_time_ahead(self) -> None:
+        """Read the time, unless it is known, together with the next statement (`Prepared.ahead`)."""
+        if self._now is None:
+            _NOW.ahead(self.conn, {})
 
     @property
     def one_writer(self) -> bool:

@@ -12,7 +12,7 @@ from waypost_server.db import wakeups
 from waypost_server.db.functions import clock
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import IS_LIVE, assignments, queries, skips
-from waypost_server.db.transaction import NOW, Tx
+from waypost_server.db.transaction import Tx
 from waypost_server.gold import schedule, second, shadow
 from waypost_server.leases import active_time, closed_tabs, presence, selection
 from waypost_server.leases.assignments import find_live, view_of_query
@@ -84,7 +84,7 @@ def _look_ahead(tx: Tx, request: LeaseRequest) -> None:
     presence.ROW_OF.ahead(tx.conn, user)
     presence.OTHERS.ahead(tx.conn, {**user, "run": request.run, "seconds": request.presence_seconds})
     selection.LAST_ANSWERED.ahead(tx.conn, user)
-    NOW.ahead(tx.conn, {})
+    tx.read_time_ahead()
 
 
 def _hand_out(tx: Tx, request: LeaseRequest, query: int) -> wire.Assignment:
