@@ -12,6 +12,7 @@ from sqlalchemy.exc import DBAPIError
 
 from waypost import wire
 from waypost_server import errors
+from waypost_server.db.sending import line_of
 from waypost_server.db.transaction import Tx
 from waypost_server.http import problems
 from waypost_server.http.context import Context
@@ -37,6 +38,7 @@ class Following:
 
 def lease(tx: Tx, request: LeaseRequest) -> Following:
     """Lease the next query in the transaction of the answer. What fails is undone; the answer stays."""
+    line_of(tx.conn).flush(tx.conn)  # what the answer itself needs must not fail as a part of the lease
     try:
         with tx.part():
             return Following(leases.lease(tx, request))

@@ -257,8 +257,8 @@ def _nobody(_: Topics) -> None:
     """Nobody waits for what is committed."""
 
 
-# Of the sessions of those who write. Only these statements are run often enough to be prepared, and they all find their
-# rows by an index, so PostgreSQL need not look for a better plan for each set of parameters.
+# For connections that write. PostgreSQL plans each prepared statement once, not for each set of parameters. psycopg
+# prepares what a connection runs more than five times, so each such statement must find its rows by an index.
 _WRITES = "-c synchronous_commit=on -c plan_cache_mode=force_generic_plan"
 # One snapshot for all statements of a transaction; by default, each has its own.
 _READS = "-c default_transaction_isolation=repeatable\\ read -c default_transaction_read_only=on"
@@ -279,7 +279,7 @@ def _postgresql(url: URL, *, writes: bool) -> Engine:
     @event.listens_for(engine, "begin")
     def begun(conn: Connection) -> None:
         line = line_of(conn)
-        line.drop()  # what a transaction has left that was undone
+        line.drop()  # what is left of a transaction that was undone
         line.run(conn, BEGIN)
 
     @event.listens_for(engine, "before_cursor_execute")

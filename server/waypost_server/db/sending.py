@@ -1,7 +1,8 @@
 """How prepared statements get to the database: to SQLite each by itself, to PostgreSQL several in one round trip.
 
 A round trip to PostgreSQL takes longer than a small statement. So a statement whose rows nobody needs yet waits. It is
-sent with the next one whose rows are needed, or with the commit, and it can fail only then. The order stays.
+sent with the next prepared statement whose rows are needed, or with the commit; or by itself before a statement of
+SQLAlchemy, and at both ends of a part of a transaction. Only then can it fail. The order stays.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,11 +12,14 @@ import psycopg
 from sqlalchemy import Connection
 from sqlalchemy.exc import DBAPIError
 
+from waypost_server import errors
+
 Rows = list[Any]
 """Rows as the driver has them."""
 BEGIN = "BEGIN"
 TOGETHER = "together"
-"""The option of an engine whose transactions begin with `BEGIN` and commit by `Line.commit`: statements may wait."""
+"""An option of engines: `BEGIN` and `COMMIT` go through the line, so statements may wait."""
+_COMMIT = "COMMIT"
 _LINE = "the line of a connection"  # in the information that the pool keeps of it
 
 
@@ -33,7 +37,7 @@ class Line(Protocol):
         ...
 
     def ahead(self, conn: Connection, sql: str, arguments: Any, /) -> None:
-        """Send a read together with the next statement, if that saves a round trip. The next equal one gets its rows.
+        """Send a read together with the next statement, if that saves a round trip. An equal `read` gets its rows.
 
         What comes between the two must not change what it reads.
         """
@@ -67,7 +71,7 @@ def line_of(conn: Connection) -> Line:
 
 
 class Single:
-    """Runs each statement when it comes (SQLite)."""
+    """Runs each statement when it comes (SQLite, and engines that `db.engine` did not make)."""
 
     lets_wait = False
 
@@ -82,7 +86,7 @@ class Single:
         """Do nothing: it would save nothing."""
 
     def read(self, conn: Connection, sql: str, arguments: Any) -> Rows:
-        """Return all rows. SQLite keeps what an unread row belongs to, even after a commit."""
+        """Return the rows. All are read: an unread row keeps its statement open in SQLite, even after a commit."""
         try:
             self._cursor.execute(sql, arguments)
             return self._cursor.fetchall() if self._cursor.description else []
@@ -146,7 +150,7 @@ class Together:
         return sent.rows
 
     def flush(self, conn: Connection) -> None:
-        """Send what waits, and wait for the rows. After a statement that fails, none of the others is run."""
+        """Send what waits, and wait for the rows. If a statement fails, none of the later ones is run."""
         if not self.is_waiting:
             return
         sending, self._waiting = self._waiting, []
@@ -161,15 +165,24 @@ class Together:
                 sent.rows = cursor.fetchall() if cursor.pgresult and cursor.pgresult.nfields else []
         except psycopg.Error as error:
             self.drop()
-            raise _raised(conn, error, "; ".join(sent.sql for sent in sending)) from error
+            raised = _raised(conn, error, "; ".join(sent.sql for sent in sending))
+            if not raised.connection_invalidated:
+                # psycopg may believe that a statement is prepared which was never sent: use another connection next time.
+                conn.connection.invalidate(soft=True)
+            raise raised from error
 
     def commit(self, conn: Connection) -> None:
         """Send what waits with the commit. SQLAlchemy's own commit, which follows, has nothing left to do."""
         if len(self._waiting) == 1 and self._waiting[0].sql == BEGIN:  # nothing was done
             self.drop()
         else:
-            self.run(conn, "COMMIT")
+            self.run(conn, _COMMIT)
             self.flush(conn)
+            # After an error that nobody minded, PostgreSQL answers with ROLLBACK, and reports no other error.
+            if self._cursors[_COMMIT].statusmessage != _COMMIT:
+                raise errors.StorageFailed(
+                    "Nothing was stored, because a statement failed; send the same request again."
+                )
 
     def drop(self) -> None:
         """Forget what waits, and what was read ahead."""
@@ -186,12 +199,13 @@ class Together:
         return cursor.execute(sent.sql, sent.arguments)
 
 
-def _raised(conn: Connection, error: Any, sql: str) -> BaseException:
+def _raised(conn: Connection, error: Any, sql: str) -> DBAPIError:
     """Return an error of the driver as SQLAlchemy raises it."""
     dialect = conn.dialect
     base = dialect.loaded_dbapi.Error
     lost = dialect.is_disconnect(error, conn.connection.dbapi_connection, None)
     if lost:
         conn.invalidate(error)
-    raised: BaseException = DBAPIError.instance(sql, None, error, base, connection_invalidated=lost, dialect=dialect)
+    raised: Any = DBAPIError.instance(sql, None, error, base, connection_invalidated=lost, dialect=dialect)
+    assert isinstance(raised, DBAPIError)
     return raised

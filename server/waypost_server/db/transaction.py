@@ -58,7 +58,10 @@ class Tx:
 
     @contextmanager
     def part(self) -> Iterator[None]:
-        """Run a part of the transaction. If it fails, only the part is undone."""
+        """Run a part of the transaction. If it fails, only the part is undone.
+
+        What waited before it (`sending`) is sent first, and can fail here.
+        """
         line = line_of(self.conn)
         line.run(self.conn, "SAVEPOINT part")
         line.flush(self.conn)  # what came before is not undone with the part

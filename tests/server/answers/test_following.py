@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from sqlalchemy import update
+from sqlalchemy.exc import DBAPIError
 from tests.server.kit import Json, Service, query
 
 from waypost_server.db.tables import assignments
@@ -39,6 +40,18 @@ def test_an_answer_stays_when_the_next_query_is_wanted_from_an_unknown_run(servi
     again = service.annotator.answer(held, next={})
     assert (again["answer"], again["next_problem"]) == (receipt["answer"], None)
     assert again["next"]["query"]["ask"]["ordinal"] == 1
+
+
+def test_an_answer_that_cannot_be_stored_is_not_acknowledged(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, query(), query(ordinal=1))
+    held = service.annotator.lease()
+    service.db.write_now(lambda tx: tx.conn.exec_driver_sql("ALTER TABLE events RENAME TO gone"))
+    with pytest.raises((DBAPIError, AssertionError), match=r"events|503"):
+        service.annotator.answer(held, next={})
+    service.db.write_now(lambda tx: tx.conn.exec_driver_sql("ALTER TABLE gone RENAME TO events"))
+    assert answered(service, run) == 0
+    service.annotator.answer(held)
 
 
 def test_an_answer_stays_when_leasing_fails(service: Service) -> None:

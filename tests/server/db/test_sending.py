@@ -1,6 +1,7 @@
 """On PostgreSQL, prepared statements go to the database together: nothing changes but the number of round trips."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 import pytest
@@ -9,6 +10,7 @@ from sqlalchemy.exc import IntegrityError
 from tests.conftest import Cluster
 from tests.server.kit import in_process, query
 
+from waypost_server import errors
 from waypost_server.db.engine import Database
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.sending import Together
@@ -120,6 +122,35 @@ def test_what_is_not_read_in_a_part_fails_in_it(db: Database) -> None:
 
     db.write_now(work)
     assert db.read_now(names) == ["ann", "bea"]
+
+
+def test_an_error_that_nobody_minds_does_not_become_a_commit(db: Database) -> None:
+    def work(tx: Tx) -> None:
+        add(tx, "ann")
+        with suppress(IntegrityError):
+            add(tx, "ann")
+            names(tx)
+
+    with pytest.raises(errors.StorageFailed, match="Nothing was stored"):
+        db.write_now(work)
+    assert db.read_now(names) == []
+
+
+def test_a_connection_whose_pipeline_failed_is_not_used_again(db: Database) -> None:
+    """psycopg may believe that a statement is prepared which the database never got."""
+
+    def process(tx: Tx) -> int:
+        return int(tx.conn.execute(text("SELECT pg_backend_pid()")).scalar_one())
+
+    def work(tx: Tx) -> int:
+        add(tx, "ann")
+        with suppress(IntegrityError), tx.part():
+            add(tx, "ann")
+        return process(tx)
+
+    failed = db.write_now(work)
+    assert all(db.write_now(process) != failed for _ in range(5))
+    assert db.read_now(names) == ["ann"]
 
 
 def test_a_read_leaves_its_connection_the_statements_that_it_has_prepared(db: Database) -> None:
