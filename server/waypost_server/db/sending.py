@@ -167,7 +167,7 @@ class Together:
             self.drop()
             raised = _raised(conn, error, "; ".join(sent.sql for sent in sending))
             if not raised.connection_invalidated:
-                # psycopg may believe that a statement is prepared which was never sent: use another connection next time.
+                # psycopg may believe a statement prepared that was never sent: use another connection next time.
                 conn.connection.invalidate(soft=True)
             raise raised from error
 
