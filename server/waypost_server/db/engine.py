@@ -19,10 +19,9 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
 from waypost.tracing import Step
 from waypost_server import errors
 from waypost_server.db import audit, schema
-from waypost_server.db.counts import Count, Counts
 from waypost_server.db.notifications import Notifications
 from waypost_server.db.sending import BEGIN, TOGETHER, line_of
-from waypost_server.db.transaction import Tx
+from waypost_server.db.transaction import Count, Counts, Tx
 from waypost_server.db.wakeups import Topics
 from waypost_server.db.writer import CommittingThreads, GroupCommit, Load, Writer
 

@@ -1,8 +1,9 @@
 """A transaction: connection, time, audit log, topics to wake, counts, traces. Every SQL statement runs in one."""
 
+import threading
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,7 +14,6 @@ from sqlalchemy.sql import select
 
 from waypost.tracing import Step
 from waypost_server.db.audit import Entry
-from waypost_server.db.counts import Count
 from waypost_server.db.functions import clock
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.sending import line_of
@@ -25,6 +25,27 @@ NANO = 1_000_000_000
 
 UPSERTS: dict[str, Callable[[Table], Any]] = {"sqlite": sqlite.insert, "postgresql": postgresql.insert}
 """By dialect: an INSERT with `on_conflict_do_...`."""
+
+Count = tuple[str, str]
+"""What is counted, and which kind of it."""
+
+
+class Counts:
+    """What this process has committed since it started, for metrics. Threads add to it, after each commit."""
+
+    def __init__(self) -> None:
+        self._counts = Counter[Count]()
+        self._lock = threading.Lock()
+
+    def add(self, more: Mapping[Count, int]) -> None:
+        """Add the counts of a transaction that was committed."""
+        with self._lock:
+            self._counts.update(more)
+
+    def of(self, what: str, *kinds: str) -> list[tuple[str, int]]:
+        """Return the counts of these kinds, also those that are 0."""
+        with self._lock:
+            return [(kind, self._counts[what, kind]) for kind in kinds]
 
 
 @dataclass
@@ -89,7 +110,7 @@ class Tx:
         self.topics.update(topics)
 
     def count(self, what: str, kind: str, n: int = 1) -> None:
-        """Count for metrics what this transaction does. Once it is committed, the counts are added (`db.counts`)."""
+        """Count for metrics what this transaction does. Once it is committed, they are added to `Counts`."""
         self.counted[what, kind] += n
 
     def trace(
