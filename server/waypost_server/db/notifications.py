@@ -36,7 +36,7 @@ class Notifications:
         self._connect_to = url.get_dialect()().create_connect_args(url)
         self._heard = heard
         self._name = secrets.token_hex(8)
-        self._topics: SimpleQueue[Topics] = SimpleQueue()
+        self._topics: SimpleQueue[Topics | None] = SimpleQueue()  # None: there will be no more
         self._closing = threading.Event()
         self._threads = [
             threading.Thread(target=self._keep, args=[work], name=f"waypost-{work.__name__.strip('_')}", daemon=True)
@@ -52,7 +52,7 @@ class Notifications:
     def close(self) -> None:
         """Tell what is left, and end."""
         self._closing.set()
-        self._topics.put(set())
+        self._topics.put(None)
         for thread in self._threads:
             thread.join()
 
@@ -70,20 +70,24 @@ class Notifications:
     def _tell(self, conn: Connection[Any]) -> None:
         ends = False
         while not ends:
-            topics = sorted(self._next())
+            told, ends = self._next()
+            topics = sorted(told)
             for first in range(0, len(topics), MOST_TOPICS):
                 self._notify(conn, topics[first : first + MOST_TOPICS])
-            ends = self._closing.wait(PAUSE_SECONDS)
+            self._closing.wait(PAUSE_SECONDS)
         self._notify(conn, [])  # wakes this process's own listener, which ends then
 
-    def _next(self) -> Topics:
-        """Return the topics of all commits since the last call; wait for one."""
-        topics = set(self._topics.get())
+    def _next(self) -> tuple[Topics, bool]:
+        """Return the topics of all commits since the last call, and whether there will be no more; wait for one."""
+        topics: Topics = set()
+        found = self._topics.get()
         try:
-            while True:
-                topics |= self._topics.get_nowait()
+            while found is not None:
+                topics |= found
+                found = self._topics.get_nowait()
         except Empty:
-            return topics
+            return topics, False
+        return topics, True
 
     def _notify(self, conn: Connection[Any], topics: list[str]) -> None:
         conn.execute("SELECT pg_notify(%s, %s)", [CHANNEL, json.dumps([self._name, *topics])])

@@ -289,11 +289,10 @@ class CommittingThreads:
                     result = work(conn, topics)
                     committing = True
             except OperationalError as error:
-                lost = error.connection_invalidated
-                undone = getattr(error.orig, "sqlstate", None) in RETRIED or (lost and not committing)
+                lost = error.connection_invalidated and not committing
+                undone = lost or getattr(error.orig, "sqlstate", None) in RETRIED
                 if not undone or attempt == ATTEMPTS - 1:
-                    # An error that the database itself reports means that nothing was committed.
-                    raise _storage_failed(error, unsure=committing and lost) from error
+                    raise _storage_failed(error, unsure=committing and not undone) from error
                 time.sleep(random.uniform(0, 0.01 * 2**attempt))  # noqa: S311 - jitter
                 continue
             self.load.committed(1)

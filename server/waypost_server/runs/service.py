@@ -96,7 +96,7 @@ _OF_ID = select(runs).where(runs.c.id == bindparam("run"), runs.c.deleted_at.is_
 FIND = Prepared(_OF_ID)
 _FIND_ACCOUNT = Prepared(select(runs).where(runs.c.id == bindparam("run")))
 # With `key_share`, whoever inserts a row that refers to this one does not have to wait (decision 43).
-LOCK = Prepared(_OF_ID.with_for_update(key_share=True))
+_LOCK = Prepared(_OF_ID.with_for_update(key_share=True))
 _VIEW = Prepared(RUNS.where(runs.c.id == bindparam("run")))
 
 
@@ -135,7 +135,7 @@ def find_account(tx: Tx, run: str) -> Record:
 
 def lock(tx: Tx, run: str) -> Record:
     """Return a run's row, locked, so that its account, answers and events change in one transaction at a time."""
-    return _one(tx, LOCK, run)
+    return _one(tx, _LOCK, run)
 
 
 def lock_own(tx: Tx, run: str, user: int) -> Record:

@@ -47,7 +47,7 @@ def test_an_answer_that_cannot_be_stored_is_not_acknowledged(service: Service) -
     service.learner.ask(run, query(), query(ordinal=1))
     held = service.annotator.lease()
     service.db.write_now(lambda tx: tx.conn.exec_driver_sql("ALTER TABLE events RENAME TO gone"))
-    with pytest.raises((DBAPIError, AssertionError), match=r"events|503"):
+    with pytest.raises((DBAPIError, AssertionError), match="events"):
         service.annotator.answer(held, next={})
     service.db.write_now(lambda tx: tx.conn.exec_driver_sql("ALTER TABLE gone RENAME TO events"))
     assert answered(service, run) == 0

@@ -54,6 +54,20 @@ def test_more_topics_than_one_notification_takes_are_all_heard(two: tuple[Databa
     assert until(lambda: topics(heard) == many | {"first"})
 
 
+def test_what_is_committed_just_before_the_end_is_told(cluster: Any) -> None:
+    url, heard = cluster.create(), Heard()
+    other = Database(url, heard.append)
+    for number in range(10):
+        db = Database(url, lambda _: None)
+        assert until(lambda db=db: commit(db, "first") or "first" in topics(heard))
+        commit(db, f"last-{number}")
+        db.close()
+        heard_last = until(lambda number=number: f"last-{number}" in topics(heard), 2.0)
+        heard.clear()
+        assert heard_last
+    other.close()
+
+
 def test_a_process_does_not_hear_itself_again(cluster: Any) -> None:
     heard = Heard()
     db = Database(cluster.create(), heard.append)
