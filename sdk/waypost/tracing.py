@@ -51,7 +51,8 @@ class Step:
 
     def end(self) -> None:
         """Add the span, which ends now, below the first span of the trace."""
-        self._end(_below_first(self.run, self.episode))
+        if is_on():
+            self._end(_below_first(self.run, self.episode))
 
     def end_as_first(self) -> None:
         """Add the span, which ends now, as the first span of the trace: the episode as a whole."""
@@ -77,6 +78,11 @@ def _below_first(run: str, episode: int) -> Context:
     trace_id, span_id = ids_of(run, episode)
     first = SpanContext(trace_id, span_id, is_remote=True, trace_flags=TraceFlags(TraceFlags.SAMPLED))
     return trace.set_span_in_context(NonRecordingSpan(first), Context())
+
+
+def is_on() -> bool:
+    """Return whether spans go anywhere: to make one that does not would take a tenth of the time of an answer."""
+    return not isinstance(trace.get_tracer_provider(), trace.ProxyTracerProvider)
 
 
 def install(service: str) -> None:

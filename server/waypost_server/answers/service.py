@@ -28,6 +28,7 @@ from waypost_server.leases.assignments import FIND, OwnAssignment, check_live, f
 from waypost_server.leases.request import LeaseRequest
 from waypost_server.queries import checks, frame_uses
 from waypost_server.queries import service as queries
+from waypost_server.queries.checks import Outline
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
 from waypost_server.webhooks import outbox
@@ -66,7 +67,7 @@ class Case:
     assignment: OwnAssignment
     run: Record
     query: Record
-    ask: wire.Ask
+    outline: Outline
     text: str
     digest: str
 
@@ -121,7 +122,7 @@ def answer(tx: Tx, post: Post, wanted: LeaseRequest | None) -> Outcome:
     if case.assignment.has_answer:
         return _repeat(tx, case, ANSWER_OF.one(tx.conn, {"assignment": post.assignment}), wanted)
     names = checks.Names.of(runs.vocabulary_of(case.run.vocabulary))
-    checks.check_answer(case.ask, post.answer, names, ["body", "answer"])
+    checks.check_answer(case.outline, post.answer, names, ["body", "answer"])
     try:
         check_live(case.assignment, tx.now)
     except errors.Conflict as refusal:
@@ -139,11 +140,13 @@ def _open(tx: Tx, post: Post) -> Case:
     assignment = find(tx, post.assignment, post.user, post.token)
     run = runs.existing(assignment.run, locked)
     assert query is not None  # nobody deletes a query before its assignments
-    return Case(assignment, run, query, queries.ASK.validate_json(query.ask), text, canonical.digest(text))
+    return Case(assignment, run, query, Outline.model_validate_json(query.ask), text, canonical.digest(text))
 
 
 def _look_ahead(tx: Tx, post: Post, of: Mapping[str, int]) -> None:
     """Lock and read in one round trip: while the run is locked, its other answers wait."""
+    if tx.one_writer:
+        return  # there are no round trips
     for statement in (_LOCK_ITS_RUN, _LOCK_ITS_QUERY, FIND):
         statement.ahead(tx.conn, of)
     active_time.FIND.ahead(tx.conn, {"user": post.user})
@@ -210,7 +213,7 @@ def _accept(tx: Tx, post: Post, case: Case, wanted: LeaseRequest | None) -> wire
         answer=stored.id,
     )
     _END.run(tx.conn, {"assignment": case.assignment.id, "now": tx.now})
-    differs = scoring.differ(case.ask.suggestion, post.answer)
+    differs = scoring.differ(case.outline.suggestion, post.answer)
     _CLOSE.run(tx.conn, {"query": case.query.id, "answer": stored.id, "differs": differs})
     if case.run.second_answers > 0:
         second.want(tx, case.run, case.query)

@@ -32,7 +32,7 @@ class Exercises:
 
     def _check_shown(self, one: wire.WorkedDemonstration, at: errors.Location) -> None:
         checks.check_ask(one.ask, self._names, [*at, "ask"])
-        checks.check_answer(one.ask, one.answer, self._names, [*at, "answer"])
+        checks.check_answer(checks.Outline.of(one.ask), one.answer, self._names, [*at, "answer"])
         if one.answer.replay is None or not one.answer.replay.states:
             raise errors.Unprocessable([*at, "answer", "replay"], "has no states, so there is nothing to show")
 
@@ -72,6 +72,6 @@ class Exercises:
             Unprocessable: the answer does not fit the query.
         """
         one = self._content.exercises[self.ids.index(query)]
-        checks.check_answer(one.ask, answer, self._names, ["body", "answer"])
+        checks.check_answer(checks.Outline.of(one.ask), answer, self._names, ["body", "answer"])
         marks = scoring.marks(one.known, answer)
         return wire.Feedback(marks=marks, reasons=one.reasons, is_right=all(mark.is_right for mark in marks))

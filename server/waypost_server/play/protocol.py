@@ -89,7 +89,7 @@ def check_moves(demonstration: Demonstration, moves: wire.PlayMoves) -> None:
     """
     if moves.segments:
         answer = wire.HierDemoAnswer(kind="hier_demo", segments=moves.segments)
-        checks.check_answer(demonstration.ask, answer, demonstration.names, [])
+        checks.check_answer(checks.Outline.of(demonstration.ask), answer, demonstration.names, [])
 
 
 def _demonstration(tx: Tx, query: wire.Query) -> Demonstration:

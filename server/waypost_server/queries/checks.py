@@ -2,7 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
+
+from pydantic import BaseModel, ConfigDict
 
 from waypost import wire
 from waypost_server.errors import Location, Unprocessable
@@ -37,6 +39,40 @@ class Names:
                 self.check_action(name, [*at, place])
 
 
+class _Acted(Protocol):
+    """A part of a trajectory."""
+
+    @property
+    def actions(self) -> Sequence[Any]:
+        """Its actions, in order."""
+
+
+class _Actions(BaseModel):
+    """The actions of a segment."""
+
+    model_config = ConfigDict(from_attributes=True)
+
+    actions: list[Any]
+
+
+class Outline(BaseModel):
+    """What of a query decides whether an answer fits it. A stored query is read in half the time without the rest."""
+
+    model_config = ConfigDict(from_attributes=True)
+
+    kind: wire.Kind
+    segments: list[_Actions] = []
+    flat: bool = False
+    max_segments: int = 0
+    max_actions: int = 0
+    suggestion: wire.Answer | None
+
+    @classmethod
+    def of(cls, ask: wire.Ask) -> "Outline":
+        """Return the outline of a query that was read as a whole."""
+        return cls.model_validate(ask)
+
+
 def check_ask(ask: wire.Ask, names: Names, at: Location) -> None:
     """Refuse a query that is not valid in its run.
 
@@ -56,10 +92,10 @@ def check_ask(ask: wire.Ask, names: Names, at: Location) -> None:
     for place, segment in enumerate(ask.context):
         _check_segment(segment, names, [*at, "context", place])
     if ask.suggestion is not None:
-        check_answer(ask, ask.suggestion, names, [*at, "suggestion"])
+        check_answer(Outline.of(ask), ask.suggestion, names, [*at, "suggestion"])
 
 
-def check_answer(ask: wire.Ask, answer: wire.Answer, names: Names, at: Location) -> None:
+def check_answer(ask: Outline, answer: wire.Answer, names: Names, at: Location) -> None:
     """Refuse an answer that does not fit its query.
 
     Raises:
@@ -67,16 +103,16 @@ def check_answer(ask: wire.Ask, answer: wire.Answer, names: Names, at: Location)
     """
     if answer.kind != ask.kind:
         raise Unprocessable([*at, "kind"], f"is {answer.kind}; the query is {ask.kind}")
-    match ask, answer:
-        case wire.AskHierDemo(), wire.HierDemoAnswer():
+    match answer:
+        case wire.HierDemoAnswer():
             _check_demonstration(ask, answer, names, at)
-        case wire.AskLabelHi(), wire.LabelHiAnswer():
+        case wire.LabelHiAnswer():
             check_length(answer.subgoals, len(ask.segments), [*at, "subgoals"], "segments")
             for place, name in enumerate(answer.subgoals):
                 names.check_subgoal(name, [*at, "subgoals", place])
-        case wire.AskLabelLo(), wire.LabelLoAnswer():
+        case wire.LabelLoAnswer():
             _check_lo_labels(ask, answer, names, at)
-        case wire.AskLabelFull(), wire.LabelFullAnswer():
+        case wire.LabelFullAnswer():
             check_length(answer.actions, n_actions_of(ask.segments), [*at, "actions"], "actions")
             names.check_actions(answer.actions, [*at, "actions"])
 
@@ -87,7 +123,7 @@ def check_length(values: Sequence[Any], expected: int, at: Location, unit: str) 
         raise Unprocessable(at, f"has {len(values)} entries; the query has {expected} {unit}")
 
 
-def n_actions_of(segments: Sequence[wire.Segment]) -> int:
+def n_actions_of(segments: Sequence[_Acted]) -> int:
     """Return the length of the full trajectory."""
     return sum(len(segment.actions) for segment in segments)
 
@@ -124,7 +160,7 @@ def _check_landmarks(shown: wire.Pictured, n_states: int, names: Names, at: Loca
             names.check_action(name, [*at, "action_landmarks", place])
 
 
-def _check_demonstration(ask: wire.AskHierDemo, answer: wire.HierDemoAnswer, names: Names, at: Location) -> None:
+def _check_demonstration(ask: Outline, answer: wire.HierDemoAnswer, names: Names, at: Location) -> None:
     """Refuse more than H_HI segments or H_FULL actions. A flat demonstration is one segment without a subgoal."""
     if ask.flat and len(answer.segments) != 1:
         raise Unprocessable([*at, "segments"], f"has {len(answer.segments)} segments; a flat demonstration has one")
@@ -151,7 +187,7 @@ def _check_length_or_none(given: Sequence[object], length: int, at: Location) ->
         raise Unprocessable(at, f"has {len(given)} entries; {length} fit: one per state")
 
 
-def _check_lo_labels(ask: wire.AskLabelLo, answer: wire.LabelLoAnswer, names: Names, at: Location) -> None:
+def _check_lo_labels(ask: Outline, answer: wire.LabelLoAnswer, names: Names, at: Location) -> None:
     """Require H actions and H + 1 terminations. An action may be null only where the segment should have ended."""
     n_actions = len(ask.segments[0].actions)
     check_length(answer.actions, n_actions, [*at, "actions"], "actions")

@@ -69,7 +69,7 @@ def test_what_an_expert_shows_begins_in_the_state_in_which_the_learner_failed(
     ask: Any = translator.ask(takeover(sigma), 0, 3)
     checks.check_ask(ask, checks.Names.of(vocabulary(domain)), [])
     answer: Any = OracleExpert(domain)(ask)
-    checks.check_answer(ask, answer, checks.Names.of(vocabulary(domain)), [])
+    checks.check_answer(checks.Outline.of(ask), answer, checks.Names.of(vocabulary(domain)), [])
     (shown,) = translator.answer(answer)  # type: ignore[misc]
     failed = sigma[-1].states[-1]
     assert shown.start.view == failed.view

@@ -10,8 +10,8 @@ from waypost_server.db.tables import predictions as table
 from waypost_server.db.transaction import Tx
 from waypost_server.errors import Location, Unprocessable
 from waypost_server.gold import scoring
-from waypost_server.queries.checks import Names, check_answer
-from waypost_server.queries.service import ANSWER, ASK
+from waypost_server.queries.checks import Names, Outline, check_answer
+from waypost_server.queries.service import ANSWER
 from waypost_server.runs import service as runs
 
 
@@ -38,7 +38,7 @@ def put(tx: Tx, run: str, sent: wire.Predictions, user: int) -> None:
         query = found.pop(one.query, None)
         if query is None:
             raise Unprocessable([*at, "query"], "is no query of this run with a used answer, or it is here twice")
-        check_answer(ASK.validate_json(query.ask), one.answer, names, [*at, "answer"])
+        check_answer(Outline.model_validate_json(query.ask), one.answer, names, [*at, "answer"])
         differs = scoring.differ(one.answer, ANSWER.validate_json(query.content))
         if differs is None:
             raise Unprocessable([*at, "answer", "kind"], "is a demonstration; only labels can be compared")

@@ -103,7 +103,7 @@ def _check_query(record: wire.QueryRecord, names: checks.Names) -> None:
         raise Unprocessable([*at, "earlier"], "has a live assignment, but the run is finished")
     given = [one.answer for one in history if one.answer is not None]
     for one in given:
-        checks.check_answer(record.ask, one.content, names, [*at, "answer"])
+        checks.check_answer(checks.Outline.of(record.ask), one.content, names, [*at, "answer"])
     revisions = [one.revision for one in given if one.revision is not None]
     if revisions != list(range(len(revisions))) or (answered and given[-1].revision is None):
         raise Unprocessable([*at, "answer", "revision"], "does not count the retractions: 0, 1, and so on")
