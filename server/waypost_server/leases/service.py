@@ -76,8 +76,8 @@ def _begin(tx: Tx, request: LeaseRequest) -> None:
 
 def _look_ahead(tx: Tx, request: LeaseRequest) -> None:
     """Lock and read in one round trip what every lease needs."""
-    if tx.one_writer:
-        return  # there are no round trips
+    if tx.one_writer or not (request.run is None or runs.is_id(request.run)):
+        return  # there are no round trips, or there is no such run
     user = {"user": request.user}
     LOCKED_USER.ahead(tx.conn, user)
     _EXPIRED.ahead(tx.conn, {})

@@ -11,12 +11,12 @@ from waypost import prices as pricing
 from waypost import wire
 from waypost.prices import to_units
 from waypost_server import errors
+from waypost_server.auth.access import LOCKED_USER
 from waypost_server.db import canonical, wakeups
 from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
 from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
-from waypost_server.queries import checks, frame_uses
-from waypost_server.queries.quotas import OpenQueries, check_open
+from waypost_server.queries import checks, frame_uses, quotas
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
 
@@ -150,7 +150,9 @@ def answered_after(tx: Tx, run: str, cursor: int, limit: int) -> wire.AnswerPage
     return wire.AnswerPage(queries=found, cursor=cursor if last is None else last)
 
 
-def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most: OpenQueries, user: int) -> wire.Asked:
+def ask(
+    tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most: quotas.OpenQueries, user: int
+) -> wire.Asked:
     """Ask all of the queries or none. Queries that were asked before are returned in their present state.
 
     Raises:
@@ -159,20 +161,32 @@ def ask(tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most:
         RunFinished, TooManyQueries, BudgetExhausted: the run cannot ask new queries.
         Unprocessable: a query is not valid in this run.
     """
+    _look_ahead(tx, run, user)
     run_row = runs.lock_own(tx, run, user)
     known = _known(tx, run, contents)
     new = _new(contents, known)
+    asked = _asked_before(tx, known)
     if new:
         _check_new(tx, run_row, body, new, most)
         prices = runs.prices_of(run_row.prices)
         reserves = [pricing.highest_cost(one.ask, prices).units for one in new]
-        ledger.reserve(tx, runs.account(run_row), sum(reserves))
         ids = _insert(tx, run_row, new, body.priority, reserves)
-        known |= {one.key: (query, one.digest) for one, query in zip(new, ids, strict=True)}
+        ledger.reserve(tx, runs.account(run_row), sum(reserves))
+        asked |= {
+            one.key: _open(query, run, body.priority, tx.now, one.ask) for query, one in zip(ids, new, strict=True)
+        }
         tx.wake(wakeups.QUEUE)
-    rows = tx.conn.execute(QUERIES.where(queries.c.id.in_([known[one.key][0] for one in contents]))).all()
-    views = {row.id: of_row(row) for row in rows}
-    return wire.Asked(queries=[views[known[one.key][0]] for one in contents])
+    return wire.Asked(queries=[asked[one.key] for one in contents])
+
+
+def _look_ahead(tx: Tx, run: str, user: int) -> None:
+    """Lock and read in one round trip what every ask needs."""
+    if tx.one_writer or not runs.is_id(run):
+        return  # there are no round trips, or there is no such run
+    LOCKED_USER.ahead(tx.conn, {"user": user})
+    runs.LOCK.ahead(tx.conn, {"run": run})
+    quotas.look_ahead(tx, run)
+    tx.read_time_ahead()
 
 
 def _known(tx: Tx, run: str, contents: Sequence[Content]) -> dict[tuple[int, int], tuple[int, str]]:
@@ -183,6 +197,34 @@ def _known(tx: Tx, run: str, contents: Sequence[Content]) -> dict[tuple[int, int
         )
     )
     return {(row.episode, row.ordinal): (row.id, row.digest) for row in rows}
+
+
+def _asked_before(tx: Tx, known: dict[tuple[int, int], tuple[int, str]]) -> dict[tuple[int, int], wire.Query]:
+    """Return the present state of queries by their keys."""
+    if not known:
+        return {}
+    ids = [query for query, _ in known.values()]
+    found = map(of_row, tx.conn.execute(QUERIES.where(queries.c.id.in_(ids))))
+    return {(query.ask.episode, query.ask.ordinal): query for query in found}
+
+
+def _open(query: int, run: str, priority: int, created_at: float, ask: wire.Ask) -> wire.Query:
+    """Return the message for a new query."""
+    return wire.Query(
+        id=query,
+        run=run,
+        state="open",
+        priority=priority,
+        created_at=created_at,
+        ask=ask,
+        answer=None,
+        answer_id=None,
+        used=False,
+        annotator=None,
+        units=None,
+        seconds=None,
+        active_seconds=None,
+    )
 
 
 def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, str]]) -> list[Content]:
@@ -202,14 +244,14 @@ def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, st
     return list(new.values())
 
 
-def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Content], most: OpenQueries) -> None:
+def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Content], most: quotas.OpenQueries) -> None:
     if run_row.state == "finished":
         raise errors.RunFinished("The run is finished, so it cannot ask new queries.")
     names = checks.Names.of(runs.vocabulary_of(run_row.vocabulary))
     for one in new:
         checks.check_ask(one.ask, names, ["body", "queries", body.queries.index(one.ask)])
     frame_uses.check_stored(tx, run_row.id, [one.ask for one in new])
-    check_open(tx, run_row, len(new), most)
+    quotas.check_open(tx, run_row, len(new), most)
 
 
 def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, reserves: Sequence[int]) -> list[int]:

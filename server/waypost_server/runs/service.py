@@ -96,12 +96,17 @@ _OF_ID = select(runs).where(runs.c.id == bindparam("run"), runs.c.deleted_at.is_
 FIND = Prepared(_OF_ID)
 _FIND_ACCOUNT = Prepared(select(runs).where(runs.c.id == bindparam("run")))
 # With `key_share`, whoever inserts a row that refers to this one does not have to wait (decision 43).
-_LOCK = Prepared(_OF_ID.with_for_update(key_share=True))
+LOCK = Prepared(_OF_ID.with_for_update(key_share=True))
 _VIEW = Prepared(RUNS.where(runs.c.id == bindparam("run")))
 
 
+def is_id(text: str) -> bool:
+    """Return whether a text that a client sent can be the id of a run. PostgreSQL does not take every text."""
+    return _ID.fullmatch(text) is not None
+
+
 def _one(tx: Tx, statement: Prepared, run: str) -> Record:
-    return existing(run, statement.first(tx.conn, {"run": run}) if _ID.fullmatch(run) else None)
+    return existing(run, statement.first(tx.conn, {"run": run}) if is_id(run) else None)
 
 
 def existing(run: str, row: Record | None) -> Record:
@@ -135,7 +140,7 @@ def find_account(tx: Tx, run: str) -> Record:
 
 def lock(tx: Tx, run: str) -> Record:
     """Return a run's row, locked, so that its account, answers and events change in one transaction at a time."""
-    return _one(tx, _LOCK, run)
+    return _one(tx, LOCK, run)
 
 
 def lock_own(tx: Tx, run: str, user: int) -> Record:

@@ -22,6 +22,7 @@ def test_a_batch_has_only_the_wanted_kinds_of_the_wanted_run(service: Service) -
     assert kinds(service.annotator, run=other) == ["label_lo"]
     assert kinds(service.annotator) == ["inspect_full"]
     service.annotator.post("/assignments/batch", {"count": 1, "run": "nowhere"}, 404)
+    service.annotator.post("/assignments/batch", {"count": 1, "run": "\0"}, 404)
 
 
 def test_a_deferring_batch_leaves_queries_to_people_at_work(service: Service) -> None:

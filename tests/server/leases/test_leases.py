@@ -67,7 +67,8 @@ def test_only_the_wanted_kinds_and_run_are_leased(service: Service) -> None:
     assert kinds_of(service.annotator.lease(kinds=["label_hi", "label_lo"])) == ["label_lo"]
     assert service.annotator.lease(run=two, expect=204) is None
     assert service.annotator.lease(run=one)["run"]["id"] == one
-    assert service.annotator.lease(run="nowhere", expect=404)["type"] == "/problems/not-found"
+    for unknown in ("nowhere", "0123456789ab", "\0"):
+        assert service.annotator.lease(run=unknown, expect=404)["type"] == "/problems/not-found"
 
 
 def test_a_paused_run_hands_nothing_out_until_it_resumes(service: Service) -> None:
