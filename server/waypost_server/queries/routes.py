@@ -29,8 +29,8 @@ router = APIRouter(tags=["queries"], route_class=JsonRoute)
 async def ask(run: str, body: wire.AskList, context: Ctx, caller: Allowed) -> wire.Asked:
     """Ask the expert: all of the queries or none. A query that was asked before is returned with its answer."""
     most = OpenQueries(context.settings.max_open_queries, context.settings.max_user_open_queries)
-    contents = [queries.Content.of(one) for one in body.queries]
-    return await context.db.write(lambda tx: queries.ask(tx, run, body, contents, most, caller.user))
+    contents = [queries.Content.of(one, place) for place, one in enumerate(body.queries)]
+    return await context.db.write(lambda tx: queries.ask(tx, run, contents, body.priority, most, caller.user))
 
 
 @router.get("/runs/{run}/queries", operation_id="listQueries", responses=refusals(errors.NotFound))

@@ -6,6 +6,7 @@ from typing import Any
 
 from pydantic import TypeAdapter
 from sqlalchemy import Row, Select, and_, bindparam, func, insert, select, tuple_, update
+from sqlalchemy.sql.elements import ColumnElement
 
 from waypost import prices as pricing
 from waypost import wire
@@ -64,26 +65,37 @@ class Filter:
 
 @dataclass(frozen=True)
 class Content:
-    """The content of a query, as it is stored and compared."""
+    """The content of a query, as it is stored and compared; `place` is its place among those asked together."""
 
+    place: int
     ask: wire.Ask
     text: str
     digest: str
 
     @classmethod
-    def of(cls, ask: wire.Ask) -> "Content":
+    def of(cls, ask: wire.Ask, place: int = 0) -> "Content":
         """Return the canonical content of a query. Frames and landmarks are stored, but not compared."""
         content = ask.model_dump(mode="json")
         text = canonical.text(content)
         for segment in [*content.get("segments", []), *content["context"]]:
             for field in wire.Pictured.model_fields:
                 del segment[field]
-        return cls(ask, text, canonical.digest(canonical.text(content)))
+        return cls(place, ask, text, canonical.digest(canonical.text(content)))
 
     @property
     def key(self) -> tuple[int, int]:
         """The key of the query within its run."""
         return (self.ask.episode, self.ask.ordinal)
+
+
+def has_key(keys: Collection[tuple[int, int]]) -> ColumnElement[bool]:
+    """Return the condition that a query of a run has one of these keys.
+
+    SQLite finds rows by an index of their episodes, but it would read the whole run for a list of pairs.
+    """
+    return and_(
+        queries.c.episode.in_({episode for episode, _ in keys}), tuple_(queries.c.episode, queries.c.ordinal).in_(keys)
+    )
 
 
 def topic(query: int) -> str:
@@ -151,7 +163,7 @@ def answered_after(tx: Tx, run: str, cursor: int, limit: int) -> wire.AnswerPage
 
 
 def ask(
-    tx: Tx, run: str, body: wire.AskList, contents: Sequence[Content], most: quotas.OpenQueries, user: int
+    tx: Tx, run: str, contents: Sequence[Content], priority: int, most: quotas.OpenQueries, user: int
 ) -> wire.Asked:
     """Ask all of the queries or none. Queries that were asked before are returned in their present state.
 
@@ -167,14 +179,12 @@ def ask(
     new = _new(contents, known)
     asked = _asked_before(tx, known)
     if new:
-        _check_new(tx, run_row, body, new, most)
+        _check_new(tx, run_row, new, most)
         prices = runs.prices_of(run_row.prices)
         reserves = [pricing.highest_cost(one.ask, prices).units for one in new]
-        ids = _insert(tx, run_row, new, body.priority, reserves)
+        ids = _insert(tx, run_row, new, priority, reserves)
         ledger.reserve(tx, runs.account(run_row), sum(reserves))
-        asked |= {
-            one.key: _open(query, run, body.priority, tx.now, one.ask) for query, one in zip(ids, new, strict=True)
-        }
+        asked |= {one.key: _open(query, run, priority, tx.now, one.ask) for query, one in zip(ids, new, strict=True)}
         tx.wake(wakeups.QUEUE)
     return wire.Asked(queries=[asked[one.key] for one in contents])
 
@@ -193,7 +203,7 @@ def _known(tx: Tx, run: str, contents: Sequence[Content]) -> dict[tuple[int, int
     keys = [one.key for one in contents]
     rows = tx.conn.execute(
         select(queries.c.id, queries.c.episode, queries.c.ordinal, queries.c.digest).where(
-            queries.c.run_id == run, tuple_(queries.c.episode, queries.c.ordinal).in_(keys)
+            queries.c.run_id == run, has_key(keys)
         )
     )
     return {(row.episode, row.ordinal): (row.id, row.digest) for row in rows}
@@ -230,7 +240,7 @@ def _open(query: int, run: str, priority: int, created_at: float, ask: wire.Ask)
 def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, str]]) -> list[Content]:
     """Return the queries that were not asked before; refuse a key that was used before with other content."""
     new: dict[tuple[int, int], Content] = {}
-    for place, one in enumerate(contents):
+    for one in contents:
         earlier = known[one.key][1] if one.key in known else None
         if one.key in new:
             earlier = new[one.key].digest
@@ -238,18 +248,18 @@ def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, st
             new[one.key] = one
         elif earlier != one.digest:
             raise errors.DifferentContent(
-                f"queries.{place}: episode {one.ask.episode} has already asked query {one.ask.ordinal} "
+                f"queries.{one.place}: episode {one.ask.episode} has already asked query {one.ask.ordinal} "
                 "with other content."
             )
     return list(new.values())
 
 
-def _check_new(tx: Tx, run_row: Row[Any], body: wire.AskList, new: Sequence[Content], most: quotas.OpenQueries) -> None:
+def _check_new(tx: Tx, run_row: Row[Any], new: Sequence[Content], most: quotas.OpenQueries) -> None:
     if run_row.state == "finished":
         raise errors.RunFinished("The run is finished, so it cannot ask new queries.")
     names = checks.Names.of(runs.vocabulary_of(run_row.vocabulary))
     for one in new:
-        checks.check_ask(one.ask, names, ["body", "queries", body.queries.index(one.ask)])
+        checks.check_ask(one.ask, names, ["body", "queries", one.place])
     frame_uses.check_stored(tx, run_row.id, [one.ask for one in new])
     quotas.check_open(tx, run_row, len(new), most)
 

@@ -5,6 +5,7 @@ import time
 
 import pytest
 from tests.server.kit import Json, Service, in_process, query, segment
+from tests.server.plans import plans
 
 BOX = {"left": 0.25, "top": 0.25, "right": 0.5, "bottom": 1}
 
@@ -36,6 +37,13 @@ def test_the_same_key_with_other_content_is_refused_and_nothing_is_asked(service
 def test_the_same_query_twice_in_one_list_is_one_query(service: Service) -> None:
     one, two = service.learner.ask(service.learner.create_run(), query(), query())
     assert one == two
+
+
+def test_to_ask_reads_no_other_query_of_the_run(lite: Service) -> None:
+    run = lite.learner.create_run()
+    asks = [query(episode=1), query(episode=2)]
+    (plan,) = plans("(queries.episode, queries.ordinal) IN", lambda: lite.learner.ask(run, *asks))
+    assert "queries USING INDEX sqlite_autoindex_queries_2 (run_id=? AND episode=?" in plan
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from tests.server.kit import Json, Service, frame, in_process, png, query, segment
+from tests.server.plans import plans
 
 from waypost import wire
 from waypost_server import errors
@@ -108,6 +109,12 @@ def test_a_run_that_was_taken_in_tells_what_the_original_tells(
         for view in ("", "/curves", "/costs"):
             assert copy.viewer.get(f"/runs/{run}{view}") == service.viewer.get(f"/runs/{run}{view}")
         assert copy.client.get(f"/api/v1/frames/{frame(png(7))['hash']}", headers=copy.viewer.headers).content == png(7)
+
+
+def test_to_take_in_a_ledger_reads_no_other_query_of_the_run(lite: Service, tmp_path: Path) -> None:
+    records = told(lite, eventful_run(lite))
+    (plan,) = plans("(queries.episode, queries.ordinal) IN", lambda: taken_in(f"sqlite:///{tmp_path / 'b.db'}", records))
+    assert "queries USING INDEX sqlite_autoindex_queries_2 (run_id=? AND episode=?" in plan
 
 
 def test_what_befell_a_query_is_in_its_record(service: Service) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby, islice
 from typing import Any, TypeVar
 
-from sqlalchemy import and_, func, insert, select, tuple_
+from sqlalchemy import and_, func, insert, select
 from sqlalchemy.exc import IntegrityError
 
 from waypost import wire
@@ -23,6 +23,7 @@ from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
 from waypost_server.errors import Location, Unprocessable
 from waypost_server.queries import checks, frames
+from waypost_server.queries.service import has_key
 from waypost_server.runs import events, ledger
 from waypost_server.runs import service as runs
 from waypost_server.watch.records.query_insertion import FindAnnotator, Target, insert_queries
@@ -120,7 +121,7 @@ def _ledger(tx: Tx, target: Target, records: Sequence[wire.LedgerRecord]) -> Non
             queries.c.episode, queries.c.ordinal, queries.c.kind, answers.c.revision, answers.c.query_id, answers.c.id
         )
         .join(answers, answers.c.query_id == queries.c.id)
-        .where(queries.c.run_id == target.run.id, tuple_(queries.c.episode, queries.c.ordinal).in_(keys))
+        .where(queries.c.run_id == target.run.id, has_key(keys))
     )
     known = {(row.episode, row.ordinal, row.kind, row.revision): row for row in found}
     rows = []
