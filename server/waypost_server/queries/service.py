@@ -14,6 +14,7 @@ from waypost.prices import to_units
 from waypost_server import errors
 from waypost_server.auth.access import LOCKED_USER
 from waypost_server.db import canonical, wakeups
+from waypost_server.db.functions import by_value
 from waypost_server.db.tables import IS_LIVE, answers, assignments, queries, users
 from waypost_server.db.tables import runs as run_table
 from waypost_server.db.transaction import Tx
@@ -137,7 +138,9 @@ def view(tx: Tx, query: int) -> wire.Query:
 def newest(tx: Tx, run: str, chosen: Filter) -> wire.QueryList:
     """List a run's queries, newest first."""
     runs.find(tx, run)
-    statement = QUERIES.where(queries.c.run_id == run).order_by(queries.c.id.desc()).limit(chosen.limit)
+    few = chosen.episode is not None or chosen.state in runs.UNANSWERED
+    place = by_value(queries.c.id) if few else queries.c.id
+    statement = QUERIES.where(queries.c.run_id == run).order_by(place.desc()).limit(chosen.limit)
     if chosen.state is not None:
         statement = statement.where(queries.c.state == chosen.state)
     if chosen.kind is not None:

@@ -4,13 +4,15 @@ from bisect import bisect_right
 from collections import deque
 from collections.abc import Iterable, Sequence
 from itertools import accumulate
-from typing import Any, NamedTuple, get_args
+from operator import attrgetter
+from typing import Any, get_args
 
 from pydantic_core import from_json
-from sqlalchemy import func, select
+from sqlalchemy import bindparam, func, select
 
 from waypost import wire
 from waypost.prices import to_units
+from waypost_server.db.prepared import Prepared, Record
 from waypost_server.db.tables import episodes, ledger_sums
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import service as runs
@@ -18,31 +20,25 @@ from waypost_server.runs import service as runs
 Result = dict[str, Any]
 """An EpisodeResult as it was stored after it had been checked; checking all again would take most of the time."""
 
+_OF_RUN = episodes.c.run_id == bindparam("run")
+_RESULTS = Prepared(select(episodes.c.result).where(_OF_RUN).order_by(episodes.c.episode))
+_TESTS = select(episodes.c.episode, episodes.c.test_success).where(_OF_RUN).order_by(episodes.c.episode)
+_SUMS = ledger_sums.c
+_SPENT = Prepared(
+    select(_SUMS.episode, _SUMS.kind, _SUMS.units, _SUMS.lo_units, _SUMS.seconds, _SUMS.active_seconds)
+    .where(_SUMS.run_id == bindparam("run"))
+    .order_by(_SUMS.episode, _SUMS.kind)
+)
+"""The ledger's sums for each kind of query in each episode; amounts are micro-units."""
+
 LEVELS: tuple[wire.SuccessLevel, ...] = get_args(wire.SuccessLevel)
-
-
-class Spent(NamedTuple):
-    """The ledger's sum for one kind of query in one episode; amounts are micro-units."""
-
-    episode: int
-    kind: wire.Kind
-    units: int
-    lo_units: int
-    seconds: float
-    active_seconds: float
 
 
 def trailing(outcomes: Sequence[bool | None], window: int = runs.TRAILING) -> list[float | None]:
     """Return the success rate over the last `window` test episodes at each episode. Untested episodes do not count."""
-    recent: deque[bool] = deque()
-    passed = 0
-    rates: list[float | None] = []
-    for outcome in outcomes:
-        if outcome is not None:
-            recent.append(outcome)
-            passed += outcome - (recent.popleft() if len(recent) > window else False)
-        rates.append(passed / len(recent) if recent else None)
-    return rates
+    passed = list(accumulate((outcome for outcome in outcomes if outcome is not None), initial=0))
+    tested = accumulate(outcome is not None for outcome in outcomes)
+    return [(passed[n] - passed[max(n - window, 0)]) / min(n, window) if n else None for n in tested]
 
 
 def _rewards(results: Sequence[Result], rows: Sequence[int]) -> list[float | None]:
@@ -71,28 +67,15 @@ def _reached(results: Sequence[Result], rows: range) -> dict[str, list[float]]:
     return rates
 
 
-def _ledger(tx: Tx, run: str) -> list[Spent]:
-    sums = ledger_sums.c
-    rows = tx.conn.execute(
-        select(sums.episode, sums.kind, sums.units, sums.lo_units, sums.seconds, sums.active_seconds)
-        .where(sums.run_id == run)
-        .order_by(sums.episode, sums.kind)
-    )
-    return list(map(Spent._make, rows.all()))
-
-
 def tests_of(tx: Tx, run: str) -> tuple[list[int], list[bool | None]]:
     """Return the reported episodes and the results of their tests."""
-    rows = tx.conn.execute(
-        select(episodes.c.episode, episodes.c.test_success).where(episodes.c.run_id == run).order_by(episodes.c.episode)
-    ).all()
+    rows = tx.conn.execute(_TESTS, {"run": run}).all()
     return [episode for episode, _ in rows], [outcome for _, outcome in rows]
 
 
 def _results(tx: Tx, run: str) -> list[Result]:
     """Return the complete results of the reported episodes."""
-    rows = tx.conn.execute(select(episodes.c.result).where(episodes.c.run_id == run).order_by(episodes.c.episode))
-    return list(from_json(f"[{','.join(rows.scalars())}]"))
+    return list(from_json(f"[{','.join(row.result for row in _RESULTS.rows(tx.conn, {'run': run}))}]"))
 
 
 def counting(paid: Sequence[int], reported: Sequence[int]) -> list[int]:
@@ -123,7 +106,7 @@ def curves(tx: Tx, run: str, after: int = -1, most: int | None = None) -> wire.C
     reported, tests = [result["episode"] for result in results], [result["test_success"] for result in results]
     rows = _rows(bisect_right(reported, after), len(reported), most)
     chosen = [reported[row] for row in rows]
-    spent = _ledger(tx, run)
+    spent = _SPENT.rows(tx.conn, {"run": run})
     counts = counting([entry.episode for entry in spent], chosen)
     rates = trailing(tests)
     lo_samples = list(accumulate(result["train_steps"] for result in results))
@@ -132,20 +115,27 @@ def curves(tx: Tx, run: str, after: int = -1, most: int | None = None) -> wire.C
         episode=chosen,
         success_rate=[rates[row] for row in rows],
         test_success=[tests[row] for row in rows],
-        cost=_units(cumulative(counts, (entry.units for entry in spent))),
-        lo_cost=_units(cumulative(counts, (entry.lo_units for entry in spent))),
-        seconds=cumulative(counts, (entry.seconds for entry in spent)),
-        active_seconds=cumulative(counts, (entry.active_seconds for entry in spent)),
-        cost_by_kind={
-            kind: _units(cumulative(counts, (entry.units * (entry.kind == kind) for entry in spent)))
-            for kind in wire.KINDS
-        },
+        cost=_units(cumulative(counts, map(attrgetter("units"), spent))),
+        lo_cost=_units(cumulative(counts, map(attrgetter("lo_units"), spent))),
+        seconds=cumulative(counts, map(attrgetter("seconds"), spent)),
+        active_seconds=cumulative(counts, map(attrgetter("active_seconds"), spent)),
+        cost_by_kind=_by_kind(spent, chosen),
         hi_labels=[results[row]["hi_labels"] for row in rows],
         lo_samples=[lo_samples[row] for row in rows],
         learner_seconds=[learner_seconds[row] for row in rows],
         reward=_rewards(results, rows),
         reached=_reached(results, rows),
     )
+
+
+def _by_kind(spent: Sequence[Record], chosen: Sequence[int]) -> dict[wire.Kind, list[float]]:
+    """Return for each kind of query its cumulative cost at the chosen episodes."""
+    paid: dict[wire.Kind, tuple[list[int], list[int]]] = {kind: ([], []) for kind in wire.KINDS}
+    for entry in spent:
+        reported, amounts = paid[entry.kind]
+        reported.append(entry.episode)
+        amounts.append(entry.units)
+    return {kind: _units(cumulative(counting(reported, chosen), amounts)) for kind, (reported, amounts) in paid.items()}
 
 
 def _rows(first: int, end: int, most: int | None) -> range:

@@ -8,6 +8,7 @@ from typing import Any
 from sqlalchemy import Row, case, func, or_, select
 
 from waypost import wire
+from waypost_server.db.functions import by_value
 from waypost_server.db.tables import IS_LIVE, assignments, presence, queries, runs, users
 from waypost_server.db.transaction import Tx
 
@@ -31,7 +32,7 @@ def _leases_by_user(tx: Tx, lease_seconds: float) -> dict[int, list[tuple[float,
         .join(queries, queries.c.id == assignments.c.query_id)
         .join(runs, runs.c.id == queries.c.run_id)
         .where(IS_LIVE, assignments.c.expires_at > tx.now)
-        .order_by(assignments.c.id)
+        .order_by(by_value(assignments.c.id))
     )
     leases: dict[int, list[tuple[float, wire.Holding]]] = defaultdict(list)
     for row in tx.conn.execute(live):

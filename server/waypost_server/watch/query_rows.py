@@ -10,7 +10,7 @@ from sqlalchemy.sql.selectable import FromClause
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.functions import json_text
+from waypost_server.db.functions import by_value, json_text
 from waypost_server.db.tables import (
     DIFFERS,
     IS_LIVE,
@@ -72,7 +72,9 @@ def query_page(tx: Tx, run: str, chosen: QueryFilter, page: RowPage) -> wire.Que
     counted = select(func.count(), func.max(queries.c.id), func.min(queries.c.id)).where(*conditions)
     joined: FromClause = _FROM if chosen.annotator is not None or chosen.text else queries
     total, newest, oldest = tx.conn.execute(counted.select_from(joined)).one()
-    rows = list(page.in_order(tx.conn.execute(page.of(_ROWS.where(*conditions), queries.c.id)).all()))
+    few = chosen.episode is not None or chosen.state in runs.UNANSWERED
+    key = by_value(queries.c.id) if few else queries.c.id
+    rows = list(page.in_order(tx.conn.execute(page.of(_ROWS.where(*conditions), key)).all()))
     endings = _endings(tx, [row.id for row in rows])
     shown = [_query_row(row, endings) for row in rows]
     return wire.QueryPage(rows=shown, total=total, newest=newest, oldest=oldest)
