@@ -1,4 +1,5 @@
--- Leases and answers with wrk, each thread as one annotator: wrk -s assignments.lua URL -- MODE RUN ANSWER TOKEN...
+-- Leases and answers with wrk, each thread as one annotator: wrk -s assignments.lua URL -- MODE RUN,RUN... ANSWER TOKEN...
+-- The first thread works in the first run, the second in the second, and so on, again from the first.
 -- It prints a line per cycle: its milliseconds and the id of the query.
 local ffi = require("ffi")
 ffi.cdef [[
@@ -20,7 +21,12 @@ function setup(thread)
 end
 
 function init(args)
-  mode, run, answer, token = args[1], args[2], args[3], args[3 + number]
+  local runs = {}
+  for one in args[2]:gmatch("[^,]+") do
+    table.insert(runs, one)
+  end
+  mode, answer, token = args[1], args[3], args[3 + number]
+  run = runs[(number - 1) % #runs + 1]
   headers = { ["Authorization"] = "Bearer " .. token, ["Content-Type"] = "application/json" }
   held, begun, cycles = nil, nil, {}
 end

@@ -171,12 +171,14 @@ class Annotator:
         self.answered += [result["receipt"]["query"] for result in results]
 
 
-def work_with_wrk(url: str, headers: Sequence[dict[str, str]], run: str, mode: str, seconds: float) -> list[list[str]]:
+def work_with_wrk(
+    url: str, headers: Sequence[dict[str, str]], runs: Sequence[str], mode: str, seconds: float
+) -> list[list[str]]:
     """Let wrk work as one annotator per thread; return the milliseconds and the query of each cycle."""
     n, script = str(len(headers)), str(Path(__file__).with_suffix(".lua"))
     tokens = [one["Authorization"].removeprefix("Bearer ") for one in headers]
-    command = ["wrk", "-t", n, "-c", n, "-d", f"{seconds:g}s", "-s", script, url, "--", mode, run, json.dumps(ANSWER)]
-    done = subprocess.run([*command, *tokens], stdout=subprocess.PIPE, text=True, check=True)
+    command = ["wrk", "-t", n, "-c", n, "-d", f"{seconds:g}s", "-s", script, url, "--", mode, ",".join(runs)]
+    done = subprocess.run([*command, json.dumps(ANSWER), *tokens], stdout=subprocess.PIPE, text=True, check=True)
     return [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("cycle ")]
 
 
@@ -200,17 +202,18 @@ def row(
     *,
     with_wrk: bool,
     processes: int = 1,
+    n_runs: int = 1,
 ) -> str:
     """Measure and return one row of the table; `limit` is the number of commits/s of SQLite alone on this disk."""
     with serving(database, processes) as (url, pid, learner, headers):
-        run = ask_all(url, learner, backlog)
-        annotators = [Annotator(url, headers[k], run) for k in range(n)]
+        runs = [ask_all(url, learner, backlog // n_runs) for _ in range(n_runs)]
+        annotators = [Annotator(url, headers[k], runs[k % n_runs]) for k in range(n)]
         if mode == "batches of answers":
             for one in annotators:
                 one.hold(backlog // n)
         before, start = cpu_seconds(pid), time.perf_counter()
         if with_wrk:
-            cycles = work_with_wrk(url, headers[:n], run, mode, seconds)
+            cycles = work_with_wrk(url, headers[:n], runs, mode, seconds)
         else:
             with ThreadPoolExecutor(n) as pool:
                 list(pool.map(lambda one: one.work(mode, start + seconds), annotators))
@@ -222,6 +225,7 @@ def row(
     duplicates = len(answered) - len(set(answered))
     rate = len(times) / took
     server = name if processes == 1 else f"{name}, {processes} processes"
+    server = server if n_runs == 1 else f"{server}, {n_runs} runs"
     at_least = "≥ " if with_wrk and len(cycles) == backlog else ""  # wrk goes on when no query is left
     return (
         f"| {server} | {mode} | {n} | {backlog} | {at_least}{rate:.0f} | {limit / rate:.0f} | "
@@ -264,6 +268,7 @@ def main() -> None:
     parser.add_argument("--databases", nargs="+", choices=databases, default=list(databases))
     parser.add_argument("--client", choices=("python", "wrk"), default="python", help="who the annotators are")
     parser.add_argument("--processes", type=int, nargs="+", default=[1], help="of the server; several: PostgreSQL only")
+    parser.add_argument("--runs", type=int, default=1, help="the annotators' runs, by turns; they share the queries")
     options = parser.parse_args()
     with_wrk = options.client == "wrk"
     if with_wrk and not {*options.modes} <= {*ONE_BY_ONE}:
@@ -289,7 +294,7 @@ def main() -> None:
         rows = product(options.databases, options.modes, options.backlogs, options.annotators, options.processes)
         for number, (name, mode, backlog, n, processes) in enumerate(rows):
             if name in targets and (processes == 1 or name == "PostgreSQL"):
-                how = {"with_wrk": with_wrk, "processes": processes}
+                how = {"with_wrk": with_wrk, "processes": processes, "n_runs": options.runs}
                 print(row(name, targets[name](number), n, options.seconds, mode, backlog, limit, **how), flush=True)
 
 

@@ -56,14 +56,16 @@ def take_back(tx: Tx, run: Record, query: Record, given: Record, state: wire.Que
     Raises:
         BudgetExhausted: the budget has too few units left for another answer.
     """
+    priority = query.run_priority
     if run.gold_of is None:
         _refund(tx, run, query, given)
+        priority = run.priority  # it may have changed since the answer
     else:
         second.settle(tx, query.id, done=False)
     tx.conn.execute(
         update(query_table)
         .where(query_table.c.id == query.id)
-        .values(state=state, answer_id=None, differs=None, revision=query.revision + 1)
+        .values(state=state, answer_id=None, differs=None, revision=query.revision + 1, run_priority=priority)
     )
     data = {"query": query.id, "answer": given.id, "units": to_units(given.units)}
     events.add(tx, run.id, "retracted", data)

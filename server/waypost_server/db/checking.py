@@ -198,11 +198,11 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         .where(runs.c.state == "finished", _unanswered),
     ),
     (
-        "A query has the priority of its run.",
+        "A query without an answer has the priority of its run.",
         "query",
         select(queries.c.id)
         .join(runs, runs.c.id == queries.c.run_id)
-        .where(runs.c.gold_of.is_(None), queries.c.run_priority != runs.c.priority),
+        .where(_unanswered, runs.c.gold_of.is_(None), queries.c.run_priority != runs.c.priority),
     ),
     (
         "An answer that was sent back belongs to the query of the comment, and counts no more.",

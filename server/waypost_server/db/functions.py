@@ -29,9 +29,10 @@ def _postgresql_clock(*_: Any, **_options: Any) -> str:
 
 
 def by_value(column: ColumnElement[int]) -> ColumnElement[int]:
-    """Return what sorts the rows that a statement finds by a number, but not by its index.
+    """Return a number for conditions and sorting, by whose index SQLite will not look for rows.
 
-    To save the sorting, SQLite would rather go through all rows in the order of that index to find the few.
+    SQLite does not know how many rows there are. So it may go through very many by the index of a number, to save the
+    sorting, where another condition finds the few.
     """
     return column + 0
 

@@ -235,7 +235,8 @@ def patch(tx: Tx, run: str, wanted: wire.RunPatch, user: int) -> wire.Run:
         changes["result"] = None if wanted.result is None else canonical.text(wanted.result)
     if wanted.priority is not None and wanted.priority != row.priority:
         changes["priority"] = wanted.priority
-        tx.conn.execute(update(queries).where(queries.c.run_id == run).values(run_priority=wanted.priority))
+        unanswered = (queries.c.run_id == run, queries.c.state.in_(UNANSWERED))  # others get it if they reopen
+        tx.conn.execute(update(queries).where(*unanswered).values(run_priority=wanted.priority))
     if "budget" in sent:
         changes["budget"] = _checked_budget(row, wanted.budget)
     if wanted.gold_rate is not None:

@@ -128,7 +128,7 @@ DAMAGES = {
     "UPDATE queries SET state = 'open' WHERE state = 'leased'": "A query is leased exactly as long",
     "UPDATE assignments SET state = 'released' WHERE state = 'answered'": "An assignment has ended with an answer",
     "UPDATE runs SET state = 'finished' WHERE state = 'running'": "A finished run has no query without an answer.",
-    "UPDATE queries SET run_priority = 9 WHERE state = 'open'": "A query has the priority of its run.",
+    "UPDATE queries SET run_priority = 9 WHERE state = 'open'": "A query without an answer has the priority of its",
     "UPDATE users SET frame_bytes = 1 WHERE name = 'lea'": "The pictures that a user has uploaded have the size",
     "UPDATE runs SET deleted_at = 1 WHERE state = 'finished'": "A deleted run has no content.",
     "UPDATE users SET deactivated_at = 1, erased_at = 1 WHERE name = 'abe'": "A user whose personal data were deleted",

@@ -1,6 +1,7 @@
 """The list of runs: found by words and state, sorted, and paged."""
 
 from tests.server.kit import VOCABULARY, Json, Service, query
+from tests.server.plans import plans
 from tests.server.runs.test_curves import report, result
 
 
@@ -73,6 +74,25 @@ def test_a_follow_up_does_not_overtake_a_run_that_was_preferred_meanwhile(servic
     assert second["query"]["run"] == preferred
     service.learner.patch(preferred, priority=-1)
     assert service.annotator.answer(second, next={})["next"]["query"]["run"] == begun
+
+
+def test_a_query_whose_answer_is_retracted_has_the_priority_that_its_run_has_by_now(service: Service) -> None:
+    usual, urgent = service.learner.create_run(), service.learner.create_run()
+    service.learner.ask(usual, query())
+    service.learner.ask(urgent, query())
+    held = service.annotator.lease(run=urgent)
+    service.annotator.answer(held)
+    service.learner.patch(urgent, priority=1)
+    service.annotator.release(service.annotator.retract(held))
+    other = service.user("ada", "annotator")  # has answered no query of this episode
+    assert other.lease()["run"]["id"] == urgent
+
+
+def test_to_change_a_priority_leaves_answered_queries_alone(lite: Service) -> None:
+    run = lite.learner.create_run()
+    lite.learner.ask(run, query())
+    (plan,) = plans("SET run_priority", lambda: lite.learner.patch(run, priority=1))
+    assert "ix_queries_run_state (run_id=? AND state=?" in plan
 
 
 def test_a_priority_is_bounded_and_for_those_who_may(service: Service) -> None:

@@ -113,7 +113,9 @@ def test_a_run_that_was_taken_in_tells_what_the_original_tells(
 
 def test_to_take_in_a_ledger_reads_no_other_query_of_the_run(lite: Service, tmp_path: Path) -> None:
     records = told(lite, eventful_run(lite))
-    (plan,) = plans("(queries.episode, queries.ordinal) IN", lambda: taken_in(f"sqlite:///{tmp_path / 'b.db'}", records))
+    (plan,) = plans(
+        "(queries.episode, queries.ordinal) IN", lambda: taken_in(f"sqlite:///{tmp_path / 'b.db'}", records)
+    )
     assert "queries USING INDEX sqlite_autoindex_queries_2 (run_id=? AND episode=?" in plan
 
 

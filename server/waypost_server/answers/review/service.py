@@ -11,6 +11,7 @@ from waypost_server import errors
 from waypost_server.answers.retraction import take_back
 from waypost_server.answers.service import LOCK_QUERY
 from waypost_server.db import wakeups
+from waypost_server.db.functions import by_value
 from waypost_server.db.tables import answers, comments, runs, users
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.transaction import Tx
@@ -69,7 +70,7 @@ def returned(tx: Tx, user: int) -> wire.ReturnedList:
         .join(answers, answers.c.id == comments.c.answer_id)
         .join(query_table, query_table.c.id == comments.c.query_id)
         .join(runs, runs.c.id == query_table.c.run_id)
-        .where(answers.c.user_id == user)
+        .where(by_value(answers.c.user_id) == user)  # an annotator has more answers than there are comments
         .order_by(comments.c.id.desc())
         .limit(MOST_RETURNED)
     )
