@@ -6,7 +6,6 @@ from sqlalchemy import Row, select, tuple_
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.functions import by_value
 from waypost_server.db.tables import answers, assignments, ledger, queries, users
 from waypost_server.db.transaction import Tx
 from waypost_server.queries import comments
@@ -29,7 +28,7 @@ def history(tx: Tx, query: int) -> wire.QueryHistory:
         .order_by(assignments.c.id)
     )
     past = [_assignment(row, given.get(row.id), found.answer_id) for row in tx.conn.execute(handed_out)]
-    charged = ENTRIES.where(answers.c.query_id == query, ledger.c.run_id == found.run).order_by(by_value(ledger.c.id))
+    charged = ENTRIES.where(answers.c.query_id == query).order_by(ledger.c.id)
     return wire.QueryHistory(
         assignments=past,
         ledger=entries_of(tx, found.run, tx.conn.execute(charged).all()),

@@ -3,6 +3,7 @@
 import pytest
 from sqlalchemy import text
 from tests.server.kit import Json, Service, query, segment
+from tests.server.plans import plans
 from tests.server.runs.test_curves import filled, report, result
 
 
@@ -241,3 +242,23 @@ def test_a_long_run_is_leafed_through_page_by_page(service: Service) -> None:
     assert tail["success_rate"] == whole["success_rate"][-2:]
     assert tail["cost_by_kind"]["label_lo"] == whole["cost_by_kind"]["label_lo"][-2:]
     assert tail["lo_samples"] == whole["lo_samples"][-2:]
+
+
+@pytest.mark.parametrize(
+    ("path", "part", "index"),
+    [
+        ("/runs/{run}/stuck", "AS expiries", "ix_queries_run_state (run_id=? AND state=?)"),
+        ("/runs/{run}/queries?state=open", "AS shown_run", "ix_queries_run_state (run_id=? AND state=?)"),
+        ("/runs/{run}/queries?episode=0", "AS shown_run", "sqlite_autoindex_queries_2 (run_id=? AND episode=?)"),
+        ("/runs/{run}/query-rows?state=leased", "AS answered_at", "ix_queries_run_state (run_id=? AND state=?)"),
+        ("/runs/{run}/query-rows?episode=0", "AS answered_at", "sqlite_autoindex_queries_2 (run_id=? AND episode=?)"),
+        ("/annotators", "AS gold_ask", "ix_assignments_expiry (expires_at>?)"),
+        ("/queries/{query}/history", "FROM ledger JOIN", "sqlite_autoindex_ledger_1 (answer_id=?)"),
+        ("/me/returned", "AS answered_at", "SCAN comments"),
+    ],
+)
+def test_the_few_rows_of_a_long_run_are_found_by_an_index(lite: Service, path: str, part: str, index: str) -> None:
+    run = lite.learner.create_run()
+    (asked,) = lite.learner.ask(run, query())
+    (plan,) = plans(part, lambda: lite.admin.get(path.format(run=run, query=asked["id"])))
+    assert index in plan
