@@ -4,8 +4,8 @@ import threading
 import time
 
 import pytest
+from tests.server.db.plans import plans
 from tests.server.kit import Json, Service, in_process, query, segment
-from tests.server.plans import plans
 
 BOX = {"left": 0.25, "top": 0.25, "right": 0.5, "bottom": 1}
 

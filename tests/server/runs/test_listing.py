@@ -1,7 +1,7 @@
 """The list of runs: found by words and state, sorted, and paged."""
 
+from tests.server.db.plans import plans
 from tests.server.kit import VOCABULARY, Json, Service, query
-from tests.server.plans import plans
 from tests.server.runs.test_curves import report, result
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.server.db.plans import plans
 from tests.server.kit import Json, Service, frame, in_process, png, query, segment
-from tests.server.plans import plans
 
 from waypost import wire
 from waypost_server import errors

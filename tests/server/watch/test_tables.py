@@ -2,8 +2,8 @@
 
 import pytest
 from sqlalchemy import text
+from tests.server.db.plans import plans
 from tests.server.kit import Json, Service, query, segment
-from tests.server.plans import plans
 from tests.server.runs.test_curves import filled, report, result
 
 
