@@ -138,7 +138,7 @@ def view(tx: Tx, query: int) -> wire.Query:
 def newest(tx: Tx, run: str, chosen: Filter) -> wire.QueryList:
     """List a run's queries, newest first."""
     runs.find(tx, run)
-    few = chosen.episode is not None or chosen.state in runs.UNANSWERED
+    few = chosen.episode is not None or chosen.state not in (None, "answered")
     place = by_value(queries.c.id) if few else queries.c.id
     statement = QUERIES.where(queries.c.run_id == run).order_by(place.desc()).limit(chosen.limit)
     if chosen.state is not None:

@@ -72,7 +72,7 @@ def query_page(tx: Tx, run: str, chosen: QueryFilter, page: RowPage) -> wire.Que
     counted = select(func.count(), func.max(queries.c.id), func.min(queries.c.id)).where(*conditions)
     joined: FromClause = _FROM if chosen.annotator is not None or chosen.text else queries
     total, newest, oldest = tx.conn.execute(counted.select_from(joined)).one()
-    few = chosen.episode is not None or chosen.state in runs.UNANSWERED
+    few = chosen.episode is not None or chosen.state not in (None, "answered")
     key = by_value(queries.c.id) if few else queries.c.id
     rows = list(page.in_order(tx.conn.execute(page.of(_ROWS.where(*conditions), key)).all()))
     endings = _endings(tx, [row.id for row in rows])

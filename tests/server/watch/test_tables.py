@@ -248,7 +248,7 @@ def test_a_long_run_is_leafed_through_page_by_page(service: Service) -> None:
     ("path", "part", "index"),
     [
         ("/runs/{run}/stuck", "AS expiries", "ix_queries_run_state (run_id=? AND state=?)"),
-        ("/runs/{run}/queries?state=open", "AS shown_run", "ix_queries_run_state (run_id=? AND state=?)"),
+        ("/runs/{run}/queries?state=cancelled", "AS shown_run", "ix_queries_run_state (run_id=? AND state=?)"),
         ("/runs/{run}/queries?episode=0", "AS shown_run", "sqlite_autoindex_queries_2 (run_id=? AND episode=?)"),
         ("/runs/{run}/query-rows?state=leased", "AS answered_at", "ix_queries_run_state (run_id=? AND state=?)"),
         ("/runs/{run}/query-rows?episode=0", "AS answered_at", "sqlite_autoindex_queries_2 (run_id=? AND episode=?)"),
