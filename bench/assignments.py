@@ -275,6 +275,8 @@ def main() -> None:
         parser.error(f"wrk has no batches; add --modes {' '.join(map(repr, ONE_BY_ONE))}")
     if with_wrk and shutil.which("wrk") is None:
         parser.error("there is no wrk on this machine; Debian has it in the package wrk")
+    if any(one % options.runs for one in (*options.annotators, *options.backlogs)):
+        parser.error("--runs must divide the numbers of annotators and of open queries, so that all runs have as many")
     print(machine())
     size = len(json.dumps(query(1)))
     print(f"A query has {size} bytes. Each row takes {options.seconds:g} s. Clients and server share the cores.\n")

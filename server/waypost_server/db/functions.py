@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from sqlalchemy import Float, String, literal
+from sqlalchemy import BigInteger, Float, String, literal
 from sqlalchemy.ext.compiler import compiles
 from sqlalchemy.sql.elements import ColumnElement
 from sqlalchemy.sql.functions import FunctionElement
@@ -28,13 +28,25 @@ def _postgresql_clock(*_: Any, **_options: Any) -> str:
     return "CAST(extract(epoch FROM statement_timestamp()) AS double precision)"
 
 
-def by_value(column: ColumnElement[int]) -> ColumnElement[int]:
-    """Return a number for conditions and sorting, by whose index SQLite will not look for rows.
+class by_value(FunctionElement[int]):  # noqa: N801 - a SQL function
+    """A number for conditions and sorting, by whose index SQLite will not look for rows.
 
     SQLite does not know how many rows there are. So it may go through very many by the index of a number, to save the
-    sorting, where another condition finds the few.
+    sorting, where another condition finds the few. PostgreSQL knows, and decides by itself.
     """
-    return column + 0
+
+    inherit_cache = True
+    type = BigInteger()
+
+
+@compiles(by_value, "sqlite")
+def _sqlite_by_value(element: by_value, compiler: Any, **options: Any) -> str:
+    return f"({compiler.process(element.clauses, **options)} + 0)"
+
+
+@compiles(by_value, "postgresql")
+def _postgresql_by_value(element: by_value, compiler: Any, **options: Any) -> str:
+    return str(compiler.process(element.clauses, **options))
 
 
 class json_text(FunctionElement[str]):  # noqa: N801 - a SQL function

@@ -19,6 +19,7 @@ from sqlalchemy import (
     UniqueConstraint,
     false,
     literal_column,
+    or_,
     text,
 )
 
@@ -207,6 +208,7 @@ Index("ix_assignments_user_live", assignments.c.user_id, sqlite_where=_live, pos
 
 # Literals rather than bound values, so that the databases use the partial indexes above.
 IS_OPEN = queries.c.state == literal_column("'open'")
+IS_UNANSWERED = or_(IS_OPEN, queries.c.state == literal_column("'leased'"))
 IS_LIVE = assignments.c.state == literal_column("'live'")
 
 # Immutable (enforced by a trigger), but what an answer says goes with its run when that is deleted. The answer that

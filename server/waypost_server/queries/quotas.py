@@ -2,24 +2,24 @@
 
 from dataclasses import dataclass
 
-from sqlalchemy import Integer, bindparam, cast, func, or_, select, update
+from sqlalchemy import Integer, bindparam, cast, func, select, update
 
 from waypost_server import errors
 from waypost_server.db.prepared import Prepared, Record
-from waypost_server.db.tables import queries, runs, users
+from waypost_server.db.tables import IS_UNANSWERED, queries, runs, users
 from waypost_server.db.transaction import Tx
-from waypost_server.runs.service import UNANSWERED
 
 LOCK = 7_296_013  # with the id of a user: who holds it may add to the user's open queries (PostgreSQL)
 
-_UNANSWERED = or_(*(queries.c.state == state for state in UNANSWERED))
 _OWNER = select(runs.c.user_id).where(runs.c.id == bindparam("run")).scalar_subquery()
-_OTHERS = select(runs.c.id).where(
-    runs.c.user_id == _OWNER, runs.c.state != "finished", runs.c.gold_of.is_(None), runs.c.id != bindparam("run")
-)
 _LOCK = Prepared(select(func.pg_advisory_xact_lock(LOCK, cast(_OWNER, Integer))))
-_COUNT = Prepared(select(func.count()).where(queries.c.run_id == bindparam("run"), _UNANSWERED))
-_COUNT_OTHERS = Prepared(select(func.count()).where(queries.c.run_id.in_(_OTHERS), _UNANSWERED))
+_COUNT = Prepared(select(func.count()).where(queries.c.run_id == bindparam("run"), IS_UNANSWERED))
+_OF_ONE = select(func.count()).where(queries.c.run_id == runs.c.id, IS_UNANSWERED).correlate(runs).scalar_subquery()
+_COUNT_OTHERS = Prepared(  # run by run: the database would rather read the queries of everybody for a list of runs
+    select(func.coalesce(func.sum(_OF_ONE), 0)).where(
+        runs.c.user_id == _OWNER, runs.c.state != "finished", runs.c.gold_of.is_(None), runs.c.id != bindparam("run")
+    )
+)
 
 
 @dataclass(frozen=True)
@@ -38,25 +38,20 @@ def check_open(tx: Tx, run: Record, n_new: int, most: OpenQueries) -> None:
     """
     one = {"run": run.id}
     if not tx.one_writer:  # runs of the same user are locked by different transactions
-        _LOCK.first(tx.conn, one)
+        _LOCK.run(tx.conn, one)
+        _COUNT_OTHERS.ahead(tx.conn, one)
     n_open = _COUNT.value(tx.conn, one)
     if n_open + n_new > most.of_run:
         raise errors.TooManyQueries(
             f"The run has {n_open} open queries and may have at most {most.of_run}; wait for answers.", retry_after=1
         )
-    n_others = _COUNT_OTHERS.value(tx.conn, one)
+    n_others = int(_COUNT_OTHERS.value(tx.conn, one))
     if n_open + n_others + n_new > most.of_user:
         raise errors.TooManyQueries(
             f"The runs of this learner have {n_open + n_others} open queries and may have at most {most.of_user}; wait "
             "for answers, or finish a run.",
             retry_after=1,
         )
-
-
-def look_ahead(tx: Tx, run: str) -> None:
-    """Lock and count in one round trip what `check_open` needs."""
-    for statement in (_LOCK, _COUNT, _COUNT_OTHERS):
-        statement.ahead(tx.conn, {"run": run})
 
 
 def use_bytes(tx: Tx, user: int, more: int, most: int) -> None:

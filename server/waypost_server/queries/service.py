@@ -140,7 +140,8 @@ def newest(tx: Tx, run: str, chosen: Filter) -> wire.QueryList:
     runs.find(tx, run)
     few = chosen.episode is not None or chosen.state not in (None, "answered")
     place = by_value(queries.c.id) if few else queries.c.id
-    statement = QUERIES.where(queries.c.run_id == run).order_by(place.desc()).limit(chosen.limit)
+    # Their ids alone at first: otherwise, all that fit would be read as a whole before they are sorted.
+    statement = select(queries.c.id).where(queries.c.run_id == run).order_by(place.desc()).limit(chosen.limit)
     if chosen.state is not None:
         statement = statement.where(queries.c.state == chosen.state)
     if chosen.kind is not None:
@@ -149,7 +150,9 @@ def newest(tx: Tx, run: str, chosen: Filter) -> wire.QueryList:
         statement = statement.where(queries.c.episode == chosen.episode)
     if chosen.before is not None:
         statement = statement.where(queries.c.id < chosen.before)
-    return wire.QueryList(queries=[of_row(row) for row in tx.conn.execute(statement)])
+    ids = tx.conn.execute(statement).scalars().all()
+    found = tx.conn.execute(QUERIES.where(queries.c.id.in_(ids)).order_by(queries.c.id.desc()))
+    return wire.QueryList(queries=[of_row(row) for row in found])
 
 
 def answered_after(tx: Tx, run: str, cursor: int, limit: int) -> wire.AnswerPage:
@@ -182,11 +185,12 @@ def ask(
     new = _new(contents, known)
     asked = _asked_before(tx, known)
     if new:
-        _check_new(tx, run_row, new, most)
+        _check_new(tx, run_row, new)
         prices = runs.prices_of(run_row.prices)
         reserves = [pricing.highest_cost(one.ask, prices).units for one in new]
-        ids = _insert(tx, run_row, new, priority, reserves)
         ledger.reserve(tx, runs.account(run_row), sum(reserves))
+        quotas.check_open(tx, run_row, len(new), most)
+        ids = _insert(tx, run_row, new, priority, reserves)
         asked |= {one.key: _open(query, run, priority, tx.now, one.ask) for query, one in zip(ids, new, strict=True)}
         tx.wake(wakeups.QUEUE)
     return wire.Asked(queries=[asked[one.key] for one in contents])
@@ -198,7 +202,6 @@ def _look_ahead(tx: Tx, run: str, user: int) -> None:
         return  # there are no round trips, or there is no such run
     LOCKED_USER.ahead(tx.conn, {"user": user})
     runs.LOCK.ahead(tx.conn, {"run": run})
-    quotas.look_ahead(tx, run)
     tx.read_time_ahead()
 
 
@@ -257,14 +260,13 @@ def _new(contents: Sequence[Content], known: dict[tuple[int, int], tuple[int, st
     return list(new.values())
 
 
-def _check_new(tx: Tx, run_row: Row[Any], new: Sequence[Content], most: quotas.OpenQueries) -> None:
+def _check_new(tx: Tx, run_row: Row[Any], new: Sequence[Content]) -> None:
     if run_row.state == "finished":
         raise errors.RunFinished("The run is finished, so it cannot ask new queries.")
     names = checks.Names.of(runs.vocabulary_of(run_row.vocabulary))
     for one in new:
         checks.check_ask(one.ask, names, ["body", "queries", one.place])
     frame_uses.check_stored(tx, run_row.id, [one.ask for one in new])
-    quotas.check_open(tx, run_row, len(new), most)
 
 
 def _insert(tx: Tx, run_row: Row[Any], new: Sequence[Content], priority: int, reserves: Sequence[int]) -> list[int]:

@@ -74,9 +74,12 @@ def query_page(tx: Tx, run: str, chosen: QueryFilter, page: RowPage) -> wire.Que
     total, newest, oldest = tx.conn.execute(counted.select_from(joined)).one()
     few = chosen.episode is not None or chosen.state not in (None, "answered")
     key = by_value(queries.c.id) if few else queries.c.id
-    rows = list(page.in_order(tx.conn.execute(page.of(_ROWS.where(*conditions), key)).all()))
-    endings = _endings(tx, [row.id for row in rows])
-    shown = [_query_row(row, endings) for row in rows]
+    # Their ids alone at first: otherwise, all that fit would be read as a whole before they are sorted.
+    chosen_ids = page.of(select(queries.c.id).select_from(joined).where(*conditions), key)
+    ids = tx.conn.execute(chosen_ids).scalars().all()
+    rows = {row.id: row for row in tx.conn.execute(_ROWS.where(queries.c.id.in_(ids)))}
+    endings = _endings(tx, ids)
+    shown = [_query_row(rows[one], endings) for one in page.in_order(ids)]
     return wire.QueryPage(rows=shown, total=total, newest=newest, oldest=oldest)
 
 

@@ -2,9 +2,11 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
-from sqlalchemy import ColumnElement, Row, Select
+from sqlalchemy import ColumnElement, Select
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -23,6 +25,6 @@ class RowPage:
             statement = statement.where(key > self.after)
         return statement.order_by(key.asc() if self.after is not None else key.desc()).limit(self.limit)
 
-    def in_order(self, rows: Sequence[Row[Any]]) -> Iterator[Row[Any]]:
+    def in_order(self, rows: Sequence[T]) -> Iterator[T]:
         """Yield the rows of this page, newest first."""
         return reversed(rows) if self.after is not None else iter(rows)

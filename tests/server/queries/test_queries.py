@@ -28,7 +28,7 @@ def test_the_same_key_with_other_content_is_refused_and_nothing_is_asked(service
     changed = query(instance={"lava": [1]})
     problem = service.learner.ask(run, query(ordinal=1), changed, expect=409)
     assert problem["type"] == "/problems/different-content"
-    assert "episode 0" in problem["detail"]
+    assert problem["detail"].startswith("queries.1: episode 0")
     assert service.learner.get(f"/runs/{run}")["open_queries"] == 1
     both = service.learner.ask(run, query(ordinal=2), query(ordinal=2, instance=1), expect=409)
     assert both["type"] == "/problems/different-content"
@@ -167,6 +167,7 @@ def test_waiting_ends_with_the_query_as_it_stands(lite: Service) -> None:
 def test_unknown_runs_and_queries_are_not_found(service: Service) -> None:
     for path in ("/runs/000000000000", "/runs/%00", "/runs/x/costs", "/runs/x/answers", "/queries/77"):
         assert service.learner.get(path, 404)["type"] == "/problems/not-found"
-    service.learner.ask("nowhere", query(), expect=404)
+    for run in ("nowhere", "%00"):
+        service.learner.ask(run, query(), expect=404)
     service.learner.post("/queries/77/use", expect=404)
     service.learner.get("/queries/99999999999999999999999", 422)

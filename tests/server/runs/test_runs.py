@@ -58,6 +58,8 @@ def test_a_question_beyond_the_budget_is_refused(service: Service) -> None:
     service.learner.ask(run, query("label_lo"), query(ordinal=1))
     problem = service.learner.ask(run, query(ordinal=2), expect=402)
     assert problem["type"] == "/problems/budget-exhausted"
+    dear = service.learner.create_run(prices={"subgoal": 1e9, "action": 1e9, "termination": 1e9})
+    service.learner.ask(dear, query("hier_demo", max_segments=10_000, max_actions=10_000), expect=402)
     assert "0 of the run's budget are free" in problem["detail"]
     service.learner.patch(run, budget=5)
     service.learner.ask(run, query(ordinal=2))
