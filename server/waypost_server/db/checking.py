@@ -15,6 +15,7 @@ from waypost_server.db import audit
 from waypost_server.db.engine import parse
 from waypost_server.db.tables import (
     IS_LIVE,
+    IS_UNANSWERED,
     answers,
     assignments,
     comments,
@@ -66,9 +67,8 @@ def _units(*conditions: Any) -> Any:
 
 
 _counting = answers.c.id == queries.c.answer_id
-_unanswered = queries.c.state.in_(("open", "leased"))
 _of_run = queries.c.run_id == runs.c.id
-_reserved = _sum(queries.c.reserve).where(_of_run, _unanswered).correlate(runs).scalar_subquery()
+_reserved = _sum(queries.c.reserve).where(_of_run, IS_UNANSWERED).correlate(runs).scalar_subquery()
 _answered_units = (
     _sum(answers.c.units).select_from(queries.join(answers, _counting)).where(_of_run).correlate(runs).scalar_subquery()
 )
@@ -195,14 +195,14 @@ CHECKS: Sequence[tuple[str, str, Select[Any]]] = (
         select(runs.c.id)
         .distinct()
         .join(queries, queries.c.run_id == runs.c.id)
-        .where(runs.c.state == "finished", _unanswered),
+        .where(runs.c.state == "finished", IS_UNANSWERED),
     ),
     (
         "A query without an answer has the priority of its run.",
         "query",
         select(queries.c.id)
         .join(runs, runs.c.id == queries.c.run_id)
-        .where(_unanswered, runs.c.gold_of.is_(None), queries.c.run_priority != runs.c.priority),
+        .where(IS_UNANSWERED, runs.c.gold_of.is_(None), queries.c.run_priority != runs.c.priority),
     ),
     (
         "An answer that was sent back belongs to the query of the comment, and counts no more.",

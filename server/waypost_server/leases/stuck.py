@@ -2,11 +2,11 @@
 
 from typing import Any
 
-from sqlalchemy import Row, and_, exists, func, or_, select
+from sqlalchemy import Row, and_, exists, func, select
 
 from waypost import wire
 from waypost_server.db.functions import by_value
-from waypost_server.db.tables import assignments, comments, presence, queries, users
+from waypost_server.db.tables import IS_UNANSWERED, assignments, comments, presence, queries, users
 from waypost_server.db.transaction import Tx
 from waypost_server.leases.presence import accepts, has_skipped
 from waypost_server.runs import service as runs
@@ -45,7 +45,7 @@ def _pending(tx: Tx, run: str) -> Any:
         select(queries.c.id, queries.c.episode, queries.c.kind, queries.c.state, queries.c.created_at)
         .add_columns(ended.label("ended_at"), returned.label("returned_at"), expiries.label("expiries"))
         .add_columns(and_(exists().where(recent), ~exists().where(recent, ~has_skipped())).label("skipped"))
-        .where(queries.c.run_id == run, or_(queries.c.state == "open", queries.c.state == "leased"))
+        .where(queries.c.run_id == run, IS_UNANSWERED)
         .order_by(by_value(queries.c.id))
     )
 

@@ -135,11 +135,16 @@ def view(tx: Tx, query: int) -> wire.Query:
     return of_row(row)
 
 
+def place_of(state: wire.QueryState | None, episode: int | None) -> ColumnElement[int]:
+    """Return what sorts the queries of a run by age, for a filter by state and episode that may leave few of them."""
+    leaves_few = episode is not None or state not in {None, "answered"}
+    return by_value(queries.c.id) if leaves_few else queries.c.id
+
+
 def newest(tx: Tx, run: str, chosen: Filter) -> wire.QueryList:
     """List a run's queries, newest first."""
     runs.find(tx, run)
-    few = chosen.episode is not None or chosen.state not in (None, "answered")
-    place = by_value(queries.c.id) if few else queries.c.id
+    place = place_of(chosen.state, chosen.episode)
     # Their ids alone at first: otherwise, all that fit would be read as a whole before they are sorted.
     statement = select(queries.c.id).where(queries.c.run_id == run).order_by(place.desc()).limit(chosen.limit)
     if chosen.state is not None:

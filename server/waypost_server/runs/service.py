@@ -6,7 +6,7 @@ import secrets
 from functools import lru_cache
 from typing import Any
 
-from sqlalchemy import Float, Select, bindparam, cast, func, insert, or_, select, update
+from sqlalchemy import Float, Select, bindparam, cast, func, insert, select, update
 
 from waypost import wire
 from waypost.prices import to_micro, to_units
@@ -14,13 +14,12 @@ from waypost_server import errors
 from waypost_server.auth import access
 from waypost_server.db import canonical, wakeups
 from waypost_server.db.prepared import Prepared, Record
-from waypost_server.db.tables import IS_LIVE, assignments, episodes, queries, runs
+from waypost_server.db.tables import IS_LIVE, IS_UNANSWERED, assignments, episodes, queries, runs
 from waypost_server.db.transaction import Tx
 from waypost_server.runs import events, ledger
 from waypost_server.runs.ledger import Account
 
 TRAILING = 100  # the success rate is over this many test episodes
-UNANSWERED = ("open", "leased")
 _ID = re.compile(r"[0-9a-f]{12}", re.ASCII)
 
 _recent = (
@@ -34,10 +33,7 @@ _recent = (
 _success_rate = select(func.avg(_recent.c.passed)).scalar_subquery()
 _episodes_done = select(func.count()).where(episodes.c.run_id == runs.c.id).correlate(runs).scalar_subquery()
 _open_queries = (
-    select(func.count())
-    .where(queries.c.run_id == runs.c.id, or_(*(queries.c.state == state for state in UNANSWERED)))
-    .correlate(runs)
-    .scalar_subquery()
+    select(func.count()).where(queries.c.run_id == runs.c.id, IS_UNANSWERED).correlate(runs).scalar_subquery()
 )
 
 RUNS: Select[Any] = select(
@@ -235,7 +231,7 @@ def patch(tx: Tx, run: str, wanted: wire.RunPatch, user: int) -> wire.Run:
         changes["result"] = None if wanted.result is None else canonical.text(wanted.result)
     if wanted.priority is not None and wanted.priority != row.priority:
         changes["priority"] = wanted.priority
-        unanswered = (queries.c.run_id == run, queries.c.state.in_(UNANSWERED))  # others get it if they reopen
+        unanswered = (queries.c.run_id == run, IS_UNANSWERED)  # others get it if they reopen
         tx.conn.execute(update(queries).where(*unanswered).values(run_priority=wanted.priority))
     if "budget" in sent:
         changes["budget"] = _checked_budget(row, wanted.budget)
@@ -290,14 +286,12 @@ def _finish_shadow(tx: Tx, run: str) -> None:
 
 def _cancel_open(tx: Tx, run: str) -> None:
     """Cancel the queries without an answer and release the units reserved for them."""
-    waiting = select(queries.c.id, queries.c.reserve).where(queries.c.run_id == run, queries.c.state.in_(UNANSWERED))
+    waiting = select(queries.c.id, queries.c.reserve).where(queries.c.run_id == run, IS_UNANSWERED)
     rows = tx.conn.execute(waiting.with_for_update(key_share=True)).all()
     if not rows:
         return
     ids = select(queries.c.id).where(queries.c.run_id == run, queries.c.state == "cancelled")
-    tx.conn.execute(
-        update(queries).where(queries.c.run_id == run, queries.c.state.in_(UNANSWERED)).values(state="cancelled")
-    )
+    tx.conn.execute(update(queries).where(queries.c.run_id == run, IS_UNANSWERED).values(state="cancelled"))
     tx.conn.execute(
         update(assignments).where(assignments.c.query_id.in_(ids), IS_LIVE).values(state="cancelled", ended_at=tx.now)
     )

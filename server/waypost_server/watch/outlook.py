@@ -10,10 +10,10 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import Any
 
-from sqlalchemy import Row, case, func, or_, select
+from sqlalchemy import Row, case, func, select
 
 from waypost import wire
-from waypost_server.db.tables import events, queries, runs
+from waypost_server.db.tables import IS_UNANSWERED, events, queries, runs
 from waypost_server.db.transaction import Tx
 from waypost_server.runs.service import vocabulary_of
 
@@ -23,7 +23,6 @@ MOST_WAITS = 20  # the newest ones, of which the median is taken
 MOST_DEMONSTRATIONS = 20  # the newest ones, of which it is known how they were asked for
 MOST_OPEN = 1_000  # more queries are not counted
 
-_UNANSWERED = or_(queries.c.state == "open", queries.c.state == "leased")
 _OF_LEARNER = ("asked", "used", "episode")  # changes that a learner makes; others end a run, or pause it
 _ORDER = case((runs.c.state == "running", 0), (runs.c.state == "paused", 1), else_=2)
 
@@ -77,7 +76,7 @@ def _form(ask: wire.AskHierDemo) -> wire.DemoForm:
 
 def _count(tx: Tx, *conditions: Any) -> int:
     """Return how many queries are unanswered, leased ones included, in the runs that fit."""
-    found = select(queries.c.id).join(runs, runs.c.id == queries.c.run_id).where(_UNANSWERED, *conditions)
+    found = select(queries.c.id).join(runs, runs.c.id == queries.c.run_id).where(IS_UNANSWERED, *conditions)
     return int(tx.conn.execute(select(func.count()).select_from(found.limit(MOST_OPEN).subquery())).scalar_one())
 
 

@@ -10,7 +10,7 @@ from sqlalchemy.sql.selectable import FromClause
 
 from waypost import wire
 from waypost.prices import to_units
-from waypost_server.db.functions import by_value, json_text
+from waypost_server.db.functions import json_text
 from waypost_server.db.tables import (
     DIFFERS,
     IS_LIVE,
@@ -24,7 +24,7 @@ from waypost_server.db.tables import (
 )
 from waypost_server.db.transaction import Tx
 from waypost_server.gold import second, shadow
-from waypost_server.queries.service import ANSWER
+from waypost_server.queries.service import ANSWER, place_of
 from waypost_server.runs import service as runs
 from waypost_server.watch.row_pages import RowPage
 
@@ -72,10 +72,10 @@ def query_page(tx: Tx, run: str, chosen: QueryFilter, page: RowPage) -> wire.Que
     counted = select(func.count(), func.max(queries.c.id), func.min(queries.c.id)).where(*conditions)
     joined: FromClause = _FROM if chosen.annotator is not None or chosen.text else queries
     total, newest, oldest = tx.conn.execute(counted.select_from(joined)).one()
-    few = chosen.episode is not None or chosen.state not in (None, "answered")
-    key = by_value(queries.c.id) if few else queries.c.id
     # Their ids alone at first: otherwise, all that fit would be read as a whole before they are sorted.
-    chosen_ids = page.of(select(queries.c.id).select_from(joined).where(*conditions), key)
+    chosen_ids = page.of(
+        select(queries.c.id).select_from(joined).where(*conditions), place_of(chosen.state, chosen.episode)
+    )
     ids = tx.conn.execute(chosen_ids).scalars().all()
     rows = {row.id: row for row in tx.conn.execute(_ROWS.where(queries.c.id.in_(ids)))}
     endings = _endings(tx, ids)
