@@ -15,8 +15,18 @@ export default defineConfig(({ mode }) => ({
     modulePreload: { polyfill: false },
     cssCodeSplit: true,
     manifest: 'chunks.json', // from which the server knows what files a view needs
-    // One file of scripts and one of styles for the work view: fewer requests before the first question.
-    rolldownOptions: { output: { codeSplitting: { groups: [{ name: 'app', tags: ['$initial'] }] } } },
+    // One file of scripts and one of styles for the work view, and one of each for what other views share: fewer
+    // requests before a view can be drawn.
+    rolldownOptions: {
+      output: {
+        codeSplitting: {
+          groups: [
+            { name: 'app', tags: ['$initial'] },
+            { name: 'shared', minShareCount: 2 },
+          ],
+        },
+      },
+    },
   },
   server: {
     proxy: { '/api': { target: 'http://127.0.0.1:8000', ws: true } },

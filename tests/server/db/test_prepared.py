@@ -49,6 +49,22 @@ def test_its_rows_are_those_of_sqlalchemy(service: Service) -> None:
     assert prepared.used is False
 
 
+def test_its_columns_are_those_of_its_rows(service: Service) -> None:
+    run = service.learner.create_run()
+    statement = Prepared(select(queries.c.id, queries.c.used).where(queries.c.run_id == bindparam("run")))
+
+    def columns(tx: Tx) -> tuple[list[int], list[bool]]:
+        found = statement.columns(tx.conn, {"run": run})
+        return list(found.id), list(found.used)
+
+    assert service.db.read_now(columns) == ([], [])
+    asked = service.learner.ask(run, query(ordinal=0), query(ordinal=1))
+    ids, used = service.db.read_now(columns)
+    assert ids == [one["id"] for one in asked]
+    assert used == [False, False]
+    assert all(one is False for one in used)  # not 0, as SQLite stores it
+
+
 def test_it_is_a_part_of_the_transaction(db: Database) -> None:
     class Undone(Exception):
         pass

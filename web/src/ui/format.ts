@@ -14,6 +14,12 @@ function once<T>(make: () => T): () => T {
   return () => (made ??= make());
 }
 
+/** Make the formatters of numbers and shares, while a view that needs both waits for its data anyway. */
+export function makeFormatters(): void {
+  numbers();
+  percents();
+}
+
 /** Return a number as text: 1,420. */
 export function number(value: number): string {
   if (Number.isInteger(value) && value >= 0 && value < 1_000) return String(value); // needs no formatter
