@@ -31,7 +31,7 @@ VIEWS = 40  # of the page
 CHARTS = 2
 WATCH = f"""() => {{
     const drawn = () => document.querySelectorAll('[role=slider] svg').length === {CHARTS};
-    const see = now => drawn() ? console.log(now) : requestAnimationFrame(() => see(performance.now()));
+    const see = now => drawn() ? console.log('drawn', now) : requestAnimationFrame(() => see(performance.now()));
     see(0);
 }}"""
 
@@ -88,9 +88,9 @@ def page_loads(url: str, run: str, headers: dict[str, str], views: int = VIEWS) 
             page = opened(context)
             page.add_init_script(f"({WATCH})()")
             # Waiting for a message, as looking into the page would keep its main thread busy for about 20 ms.
-            with page.expect_console_message() as drawn:
+            with page.expect_console_message(lambda one: one.text.startswith("drawn ")) as drawn:
                 page.goto(f"/runs/{run}", wait_until="commit")
-            yield float(drawn.value.text)
+            yield float(drawn.value.text.split()[1])
             context.close()
 
 

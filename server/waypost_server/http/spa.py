@@ -58,7 +58,8 @@ def install(app: FastAPI, folder: Path | None) -> None:
 
 def _content(file: Path, headers: dict[str, str]) -> Response:
     """Return a whole file. The files are small, so reading one takes less time than waking a thread that reads it."""
-    return Response(file.read_bytes(), headers=headers, media_type=guess_type(file)[0])
+    kind = guess_type(file)[0] or "application/octet-stream"
+    return Response(file.read_bytes(), headers=headers, media_type=kind)
 
 
 @cache

@@ -30,6 +30,7 @@ def test_a_run_is_followed_live(open_page: Open, learner: Learner) -> None:
     expect(asked).to_contain_text("open")
     learner.report(run, [False, True])
     expect(page.get_by_role("row", name="1 50%")).to_be_hidden()
+    expect(page.locator("td").get_by_text("50%", exact=True)).to_have_count(1)  # a browser's search finds it
     page.get_by_text("As a table").first.click()
     expect(page.get_by_role("row", name="1 50%")).to_be_visible()
     chart = page.get_by_role("slider", name="Success on unseen instances")
