@@ -111,9 +111,22 @@ def test_who_waits_a_minute_may_try_again() -> None:
     assert not refused(attempts, VISITOR)
 
 
+def test_who_must_wait_is_told_for_how_long() -> None:
+    clock = Clock()
+    attempts = LoginAttempts(2, clock)
+    attempts.failed(VISITOR)
+    clock.now = 10
+    attempts.failed(VISITOR)
+    for clock.now, left in ((25, WINDOW_SECONDS - 25), (WINDOW_SECONDS - 0.5, 1)):
+        with pytest.raises(errors.TooManyAttempts) as caught:
+            attempts.failed(VISITOR)
+        assert caught.value.retry_after == left
+
+
 def test_many_addresses_fill_no_memory_and_free_only_the_oldest() -> None:
     attempts = LoginAttempts(1, Clock())
     for n in range(MOST_CLIENTS + 1):
         assert not refused(attempts, f"10.{n // 65_536}.{n // 256 % 256}.{n % 256}")
-    assert refused(attempts, "10.0.0.1")
+    assert refused(attempts, "10.0.0.2")
+    assert refused(attempts, "10.0.0.1"), "a known client takes nobody's place"
     assert not refused(attempts, "10.0.0.0")

@@ -110,6 +110,20 @@ def test_a_session_is_extended_once_a_tenth_of_it_is_over_and_never_past_its_end
     assert renewed(500) == (False, pytest.approx(500, abs=5)), "it was ended"
 
 
+def test_extending_a_session_extends_no_other(lite: Service) -> None:
+    user = id_of(lite.annotator)
+    own, other = opened(lite, user, 500), opened(lite, user, 500)
+    assert lite.db.write_now(lambda tx: sessions.renew_session(tx, own.id, 1_000, 10_000))
+    assert row_of(lite, other.id).expires_at == other.expires_at
+
+
+def test_a_session_is_not_revoked_as_a_token(lite: Service) -> None:
+    session = opened(lite, id_of(lite.annotator))
+    with pytest.raises(errors.NotFound):
+        lite.db.write_now(lambda tx: tokens.revoke_token(tx, session.id))
+    assert row_of(lite, session.id).revoked_at is None
+
+
 def test_a_session_is_no_login_link(lite: Service) -> None:
     session = opened(lite, id_of(lite.annotator))
     assert lite.db.write_now(lambda tx: sessions.redeem(tx, session.secret, 60)) is None
