@@ -110,6 +110,17 @@ def test_a_session_is_extended_once_a_tenth_of_it_is_over_and_never_past_its_end
     assert renewed(500) == (False, pytest.approx(500, abs=5)), "it was ended"
 
 
+def test_a_link_opens_one_session_and_none_after_its_end(lite: Service) -> None:
+    user = id_of(lite.annotator)
+
+    def session_of(code: str) -> credentials.Secret | None:
+        return lite.db.write_now(lambda tx: sessions.redeem(tx, code, 600))
+
+    links = lite.db.write_now(lambda tx: [sessions.create_login_link(tx, user, seconds) for seconds in (60, 0)])
+    assert [session_of(link.code) is None for link in links] == [False, True]
+    assert session_of(links[0].code) is None, "two browsers may have looked at it at once"
+
+
 def test_extending_a_session_extends_no_other(lite: Service) -> None:
     user = id_of(lite.annotator)
     own, other = opened(lite, user, 500), opened(lite, user, 500)

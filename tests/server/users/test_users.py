@@ -90,7 +90,7 @@ def test_a_cookie_used_from_another_page_is_refused(lite: Service, headers: dict
     assert lite.client.get(f"{API}/me", headers=headers).status_code == 200
 
 
-@pytest.mark.parametrize("headers", [SAME, {"Origin": "http://testserver"}])
+@pytest.mark.parametrize("headers", [SAME, {"Sec-Fetch-Site": "none"}, {"Origin": "http://testserver"}])
 def test_a_cookie_used_from_the_page_itself_works(lite: Service, headers: dict[str, str]) -> None:
     log_in(lite, code_for(lite))
     assert lite.client.post(f"{API}/assignments", json={}, headers=headers).status_code == 204
