@@ -9,7 +9,7 @@ from waypost_learner.policies.labels import Labels
 from waypost_learner.rollout.simulator import Start
 
 
-def flat_bc(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:  # noqa: ARG001 (algorithms share a signature)
+def flat_bc(s: Start, _: Learner) -> Generator[Query, Any, Labels]:
     """Run one episode: the expert demonstrates, and each of its actions is a label."""
     labels = Labels()
     (tau_star,) = yield HierDemo(s.state, flat=True)

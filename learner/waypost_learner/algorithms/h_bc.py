@@ -9,7 +9,7 @@ from waypost_learner.policies.labels import Labels
 from waypost_learner.rollout.simulator import Start
 
 
-def h_bc(s: Start, learner: Learner) -> Generator[Query, Any, Labels]:  # noqa: ARG001 (algorithms share a signature)
+def h_bc(s: Start, _: Learner) -> Generator[Query, Any, Labels]:
     """Run one episode, lines 3-7, from the start state s. `Learner.learn` does Train (lines 8-9)."""
     labels = Labels()
     sigma_star = yield HierDemo(s.state)  # line 4

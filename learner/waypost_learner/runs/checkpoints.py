@@ -92,7 +92,7 @@ def load(path: Path, learner: Learner) -> None:
         ValueError: the learner's networks differ from the checkpoint's, or another version of Waypost wrote it.
     """
     with safe_open(path, "pt") as file:
-        tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118 (no mapping)
+        tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118 - it is no mapping
     try:
         _restore(tensors, learner)
     except (LookupError, RuntimeError, ValueError) as error:

@@ -41,25 +41,26 @@ def install(app: FastAPI, folder: Path | None) -> None:
         found = _file(root, path)
         if found is not None:
             if not path.startswith("assets/"):
-                return _content(found, {"Cache-Control": "no-cache"})
+                return _reply(found, found.read_bytes(), {"Cache-Control": "no-cache"})
             headers = {"Cache-Control": "public, max-age=31536000, immutable"}
             if found.suffix in COMPRESSED and "gzip" in request.headers.get("Accept-Encoding", ""):
                 headers |= {"Content-Encoding": "gzip", "Vary": "Accept-Encoding"}
-                return Response(_gzipped(found), headers=headers, media_type=guess_type(found)[0])
-            return _content(found, headers)
+                return _reply(found, _gzipped(found), headers)
+            return _reply(found, found.read_bytes(), headers)
         if path.startswith("assets/"):
             raise HTTPException(404, f"There is no {request.url.path}.")
         headers = {"Cache-Control": "no-cache"}
         may_be_known = "cookie" in request.headers or "authorization" in request.headers
         if hints := ahead(root, path, may_be_known):
             headers["Link"] = hints
-        return _content(root / "index.html", headers)
+        page = root / "index.html"
+        return _reply(page, page.read_bytes(), headers)
 
 
-def _content(file: Path, headers: dict[str, str]) -> Response:
-    """Return a whole file. The files are small, so reading one takes less time than waking a thread that reads it."""
+def _reply(file: Path, content: bytes, headers: dict[str, str]) -> Response:
+    """Return a whole file. The files are small: to read one takes less time than to wake a thread that reads it."""
     kind = guess_type(file)[0] or "application/octet-stream"
-    return Response(file.read_bytes(), headers=headers, media_type=kind)
+    return Response(content, headers=headers, media_type=kind)
 
 
 @cache

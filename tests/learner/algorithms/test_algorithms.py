@@ -32,7 +32,7 @@ from waypost_learner.rollout.policy_keys import FLAT, META, PolicyKey, pi
 
 def test_algorithm_1_asks_for_a_demonstration_from_the_start_state_and_learns_all_of_it() -> None:
     demonstration = (segment(3, n_actions=2, action=1), segment(0, n_actions=1, action=2))
-    episode = h_bc(S, learner=None)  # type: ignore[arg-type]  # it never looks at its policies
+    episode = h_bc(S, None)  # type: ignore[arg-type]  # it never looks at its policies
     assert next(episode) == HierDemo(S.state)
     with pytest.raises(StopIteration) as over:
         episode.send(demonstration)

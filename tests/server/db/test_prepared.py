@@ -61,8 +61,7 @@ def test_its_columns_are_those_of_its_rows(service: Service) -> None:
     asked = service.learner.ask(run, query(ordinal=0), query(ordinal=1))
     ids, used = service.db.read_now(columns)
     assert ids == [one["id"] for one in asked]
-    assert used == [False, False]
-    assert all(one is False for one in used)  # not 0, as SQLite stores it
+    assert [one is False for one in used] == [True, True], "not 0, as SQLite stores it"
 
 
 def test_it_is_a_part_of_the_transaction(db: Database) -> None:
