@@ -12,7 +12,7 @@ from sqlalchemy.exc import DBAPIError
 
 from waypost import wire
 from waypost_server import errors
-from waypost_server.db.sending import line_of
+from waypost_server.db.sending import MustWait, line_of
 from waypost_server.db.transaction import Tx
 from waypost_server.http import problems
 from waypost_server.http.context import Context
@@ -42,6 +42,8 @@ def lease(tx: Tx, request: LeaseRequest) -> Following:
     try:
         with tx.part():
             return Following(leases.lease(tx, request))
+    except MustWait:
+        raise  # the answer and the lease are tried again together
     except Exception as error:
         if isinstance(error, DBAPIError) and error.connection_invalidated:
             raise  # the transaction is lost, and the answer with it

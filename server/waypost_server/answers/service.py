@@ -17,6 +17,7 @@ from waypost_server.answers import following
 from waypost_server.answers.following import Following
 from waypost_server.db import canonical
 from waypost_server.db.prepared import Prepared, Record
+from waypost_server.db.sending import MustWait
 from waypost_server.db.tables import answers, assignments
 from waypost_server.db.tables import queries as query_table
 from waypost_server.db.tables import runs as runs_table
@@ -75,12 +76,14 @@ class Case:
 LOCK_QUERY = Prepared(select(query_table).where(query_table.c.id == bindparam("query")).with_for_update(key_share=True))
 ANSWER_OF = Prepared(select(answers).where(answers.c.assignment_id == bindparam("assignment")))
 _OF_ASSIGNMENT = select(assignments.c.query_id).where(assignments.c.id == bindparam("assignment")).scalar_subquery()
-_LOCK_ITS_RUN = Prepared(
+_ITS_RUN = (
     select(runs_table)
     .where(runs_table.c.id == select(query_table.c.run_id).where(query_table.c.id == _OF_ASSIGNMENT).scalar_subquery())
     .where(runs_table.c.deleted_at.is_(None))
-    .with_for_update(key_share=True)
 )
+_LOCK_ITS_RUN = Prepared(_ITS_RUN.with_for_update(key_share=True))
+# With several servers a run is often locked. To find no row is cheaper than `MustWait` from the database, an error.
+_LOCK_ITS_RUN_IF_FREE = Prepared(_ITS_RUN.with_for_update(key_share=True, skip_locked=True))
 _LOCK_ITS_QUERY = Prepared(
     select(query_table).where(query_table.c.id == _OF_ASSIGNMENT).with_for_update(key_share=True)
 )
@@ -135,19 +138,22 @@ def answer(tx: Tx, post: Post, wanted: LeaseRequest | None) -> Outcome:
 def _open(tx: Tx, post: Post) -> Case:
     text = canonical.text(post.answer.model_dump(mode="json"))
     of = {"assignment": post.assignment}
-    _look_ahead(tx, post, of)
-    locked, query = _LOCK_ITS_RUN.first(tx.conn, of), _LOCK_ITS_QUERY.first(tx.conn, of)
+    lock_run = _LOCK_ITS_RUN if tx.may_wait else _LOCK_ITS_RUN_IF_FREE
+    _look_ahead(tx, post, of, lock_run)
+    locked, query = lock_run.first(tx.conn, of), _LOCK_ITS_QUERY.first(tx.conn, of)
+    if locked is None and not tx.may_wait:
+        raise MustWait
     assignment = find(tx, post.assignment, post.user, post.token)
     run = runs.existing(assignment.run, locked)
     assert query is not None  # nobody deletes a query before its assignments
     return Case(assignment, run, query, Outline.model_validate_json(query.ask), text, canonical.digest(text))
 
 
-def _look_ahead(tx: Tx, post: Post, of: Mapping[str, int]) -> None:
+def _look_ahead(tx: Tx, post: Post, of: Mapping[str, int], lock_run: Prepared) -> None:
     """Lock and read in one round trip: while the run is locked, its other answers wait."""
     if tx.one_writer:
         return  # there are no round trips
-    for statement in (_LOCK_ITS_RUN, _LOCK_ITS_QUERY, FIND):
+    for statement in (lock_run, _LOCK_ITS_QUERY, FIND):
         statement.ahead(tx.conn, of)
     active_time.FIND.ahead(tx.conn, {"user": post.user})
     outbox.ACTIVE.ahead(tx.conn, {})

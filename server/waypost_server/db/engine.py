@@ -1,7 +1,7 @@
 """The store: opens an SQLite or PostgreSQL database, and runs transactions on it.
 
-Transactions run on threads, not on the event loop, and are acknowledged after their commit. SQLite has one thread with
-one connection, which writes and commits many transactions at once (`db.writer`). PostgreSQL commits each by itself.
+Transactions run on threads, not on the event loop, and are acknowledged after their commit. One thread with one
+connection writes and commits many transactions at once (`db.writer`).
 """
 
 import asyncio
@@ -13,22 +13,21 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from sqlalchemy import Connection, Engine, create_engine, event, make_url
-from sqlalchemy.engine import URL
+from sqlalchemy.engine import URL, ExceptionContext
 from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
 
 from waypost.tracing import Step
 from waypost_server import errors
 from waypost_server.db import audit, schema
 from waypost_server.db.notifications import Notifications
-from waypost_server.db.sending import BEGIN, TOGETHER, line_of
+from waypost_server.db.sending import BEGIN, LOCKED, TOGETHER, MustWait, line_of
 from waypost_server.db.transaction import Count, Counts, Tx
 from waypost_server.db.wakeups import Topics
-from waypost_server.db.writer import CommittingThreads, GroupCommit, Load, Writer
+from waypost_server.db.writer import GroupCommit, Load, SharedGroupCommit, Writer
 
 T = TypeVar("T")
 
 READERS = 4
-WRITERS = 3  # PostgreSQL only: more would mostly wait for each other, as answers of one run do
 BUSY_SECONDS = 15  # SQLite only: how long a transaction waits while another process writes
 
 
@@ -65,9 +64,7 @@ class Database:
             (committed or _nobody)(topics)
             tell(topics)
 
-        self._writer: Writer = (
-            GroupCommit(self._engine, changed) if lite else CommittingThreads(self._engine, changed, WRITERS)
-        )
+        self._writer: Writer = (GroupCommit if lite else SharedGroupCommit)(self._engine, changed)
 
     def write_now(self, work: Callable[[Tx], T]) -> T:
         """Run a transaction and return its result once it is on disk.
@@ -257,8 +254,10 @@ def _nobody(_: Topics) -> None:
 
 
 # For connections that write. PostgreSQL plans each prepared statement once, not for each set of parameters. psycopg
-# prepares what a connection runs more than five times, so each such statement must find its rows by an index.
-_WRITES = "-c synchronous_commit=on -c plan_cache_mode=force_generic_plan"
+# prepares what a connection runs more than five times, so each such statement must find its rows by an index, and in
+# its order: a bitmap, which has none, looks cheap while a table is small.
+_PLANS = "-c plan_cache_mode=force_generic_plan -c enable_bitmapscan=off"
+_WRITES = f"-c synchronous_commit=on -c lock_timeout=0 {_PLANS}"
 # One snapshot for all statements of a transaction; by default, each has its own.
 _READS = "-c default_transaction_isolation=repeatable\\ read -c default_transaction_read_only=on"
 
@@ -268,7 +267,7 @@ def _postgresql(url: URL, *, writes: bool) -> Engine:
     options = f"{_WRITES if writes else _READS} {limits}"
     engine = create_engine(
         url,
-        pool_size=WRITERS if writes else READERS,
+        pool_size=1 if writes else READERS,
         hide_parameters=True,
         max_overflow=0,
         connect_args={"options": options, "autocommit": True},  # the line of a connection sends BEGIN and COMMIT
@@ -284,6 +283,11 @@ def _postgresql(url: URL, *, writes: bool) -> Engine:
     @event.listens_for(engine, "before_cursor_execute")
     def executing(conn: Connection, *_: Any) -> None:
         line_of(conn).flush(conn)
+
+    @event.listens_for(engine, "handle_error")
+    def failed(context: ExceptionContext) -> None:
+        if getattr(context.original_exception, "sqlstate", None) == LOCKED:
+            raise MustWait from context.original_exception
 
     @event.listens_for(engine, "commit")
     def committing(conn: Connection) -> None:

@@ -17,10 +17,15 @@ from waypost_server import errors
 Rows = list[Any]
 """Rows as the driver has them."""
 BEGIN = "BEGIN"
+LOCKED = "55P03"  # PostgreSQL: another transaction has locked the rows, and this one must not wait for it
 TOGETHER = "together"
 """An option of engines: `BEGIN` and `COMMIT` go through the line, so statements may wait."""
 _COMMIT = "COMMIT"
 _LINE = "the line of a connection"  # in the information that the pool keeps of it
+
+
+class MustWait(Exception):
+    """A transaction that must not wait needs rows that another one has locked."""
 
 
 class Line(Protocol):
@@ -31,6 +36,10 @@ class Line(Protocol):
 
     lets_wait: bool
     """Whether statements wait to be sent together."""
+    may_wait: bool
+    """Whether a statement may wait for rows that others have locked. Otherwise it raises `MustWait`."""
+    is_spoilt: bool
+    """Whether no further transaction may use the connection."""
 
     def run(self, conn: Connection, sql: str, arguments: Any = (), /) -> None:
         """Run a statement whose rows nobody needs, at once or together with a later one."""
@@ -55,6 +64,10 @@ class Line(Protocol):
         """Commit what waits with the transaction."""
         ...
 
+    def forget(self) -> None:
+        """Forget what was read ahead: another request begins."""
+        ...
+
     def drop(self) -> None:
         """Drop what waits, because it belongs to what is undone."""
         ...
@@ -74,6 +87,8 @@ class Single:
     """Runs each statement when it comes (SQLite, and engines that `db.engine` did not make)."""
 
     lets_wait = False
+    may_wait = True
+    is_spoilt = False
 
     def __init__(self, driver: Any) -> None:
         self._cursor: Any = driver.cursor()
@@ -99,6 +114,9 @@ class Single:
     def commit(self, conn: Connection) -> None:
         """Do nothing: SQLAlchemy commits."""
 
+    def forget(self) -> None:
+        """Do nothing: nothing is read ahead."""
+
     def drop(self) -> None:
         """Do nothing: nothing waits."""
 
@@ -117,6 +135,8 @@ class Together:
     """Sends statements in pipelines (PostgreSQL)."""
 
     lets_wait = True
+    may_wait = True
+    is_spoilt = False
 
     def __init__(self, driver: psycopg.Connection[Any]) -> None:
         self._driver = driver
@@ -168,8 +188,9 @@ class Together:
             raised = _raised(conn, error, "; ".join(sent.sql for sent in sending))
             if not raised.connection_invalidated:
                 # psycopg may believe a statement prepared that was never sent: use another connection next time.
+                self.is_spoilt = True
                 conn.connection.invalidate(soft=True)
-            raise raised from error
+            raise (MustWait() if error.sqlstate == LOCKED else raised) from error
 
     def commit(self, conn: Connection) -> None:
         """Send what waits with the commit. SQLAlchemy's own commit, which follows, has nothing left to do."""
@@ -183,6 +204,10 @@ class Together:
                 raise errors.StorageFailed(
                     "Nothing was stored, because a statement failed; send the same request again."
                 )
+
+    def forget(self) -> None:
+        """Forget what was read ahead."""
+        self._ahead.clear()
 
     def drop(self) -> None:
         """Forget what waits, and what was read ahead."""

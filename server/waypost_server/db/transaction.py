@@ -77,6 +77,11 @@ class Tx:
         """Whether transactions run one after the other, so that rows need no locks (SQLite)."""
         return self.conn.dialect.name == "sqlite"
 
+    @property
+    def may_wait(self) -> bool:
+        """Whether this may wait for rows that others have locked. If not, `sending.MustWait` puts it off."""
+        return line_of(self.conn).may_wait
+
     @contextmanager
     def part(self) -> Iterator[None]:
         """Run a part of the transaction. If it fails, only the part is undone.

@@ -1,21 +1,24 @@
-"""Writers: they run transactions and acknowledge each one only after the commit that made it durable."""
+"""Writers: they run transactions and acknowledge each one only after the commit that made it durable.
+
+One thread with one connection runs all waiting transactions together, each in a savepoint, and commits once.
+"""
 
 import random
 import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, cycle
 from queue import Empty, SimpleQueue
 from typing import Any, Protocol, TypeVar
 
 from sqlalchemy import Connection, Engine
-from sqlalchemy.exc import DBAPIError, OperationalError
+from sqlalchemy.exc import DBAPIError, IntegrityError, OperationalError
 
 from waypost_server import errors
-from waypost_server.db.sending import line_of
+from waypost_server.db.sending import MustWait, line_of
 from waypost_server.db.wakeups import Topics
 
 T = TypeVar("T")
@@ -23,9 +26,11 @@ Work = Callable[[Connection, Topics], T]
 
 # Far more than wait in a store that keeps up. Each keeps its request in memory, and the last one waits for all others.
 MOST_WAITING = 1_000
-LARGEST_BATCH = 128
 ATTEMPTS = 8
 RETRIED = {"40001", "40P01"}  # PostgreSQL: serialization failure, deadlock
+# Of the jobs of a group, by turns: statements wait (`sending`), so one job's may fail in the next one, and undoing that
+# one must not undo the other.
+SAVEPOINTS = ("job_a", "job_b")
 
 
 class Writer(Protocol):
@@ -94,12 +99,26 @@ class Job:
     future: Future[Any]
 
 
+Outcome = tuple[Any, Exception | None]
+"""What a job returned, or the error that it raised."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """Jobs that are committed together, and the attempts at it that the database has undone."""
+
+    jobs: list[Job]
+    undone: int = 0
+
+
 class GroupCommit:
-    """One thread with one connection: all waiting transactions run together, each in a savepoint, and commit once.
+    """The writer of SQLite, whose file one process writes at a time.
 
     With `synchronous=FULL` a commit costs a disk sync. Waiting requests share the sync, so many annotators are served
     as fast as one, and an answer is still acknowledged only after the sync.
     """
+
+    largest = 128  # the most transactions of one commit
 
     def __init__(self, engine: Engine, committed: Callable[[Topics], None]) -> None:
         self._engine = engine
@@ -133,7 +152,7 @@ class GroupCommit:
 
     def _loop(self) -> None:
         while not self._closing:
-            if batch := self._take(LARGEST_BATCH, wait=True):
+            if batch := self._take(self.largest, wait=True):
                 self._run(batch)
         self._disconnect()
 
@@ -166,8 +185,7 @@ class GroupCommit:
             try:
                 conn = self._begin()
             except Exception as error:
-                _fail(chain(group, *groups), error, unsure)
-                _fail(self._take(self._jobs.qsize(), wait=False), error)
+                self._fail_all(chain(group, *groups), error, unsure)
                 return
             try:
                 self._commit(conn, group)
@@ -181,6 +199,11 @@ class GroupCommit:
             except Exception as error:
                 self._disconnect()
                 _fail(group, error)
+
+    def _fail_all(self, taken: Iterable[Job], error: Exception, unsure: bool = False) -> None:
+        """Fail the jobs that were taken, and all that wait in the queue."""
+        _fail(taken, error, unsure)
+        _fail(self._take(self._jobs.qsize(), wait=False), error)
 
     def _begin(self) -> Connection:
         try:
@@ -203,7 +226,11 @@ class GroupCommit:
         if len(group) == 1:
             outcomes = [_alone(conn, group[0].work, topics)]
         else:
-            outcomes = [_in_savepoint(conn, job.work, topics) for job in group]
+            outcomes = [_in_savepoint(conn, job.work, topics, SAVEPOINTS[0]) for job in group]
+        self._finish(conn, group, outcomes, topics)
+
+    def _finish(self, conn: Connection, group: list[Job], outcomes: list[Outcome], topics: Topics) -> None:
+        """Commit, and tell those who wait."""
         try:
             conn.commit()
         except DBAPIError as error:
@@ -219,13 +246,81 @@ class GroupCommit:
                 job.future.set_exception(refusal)
 
 
+class SharedGroupCommit(GroupCommit):
+    """The writer of PostgreSQL, which other servers write to at the same time.
+
+    Two servers that held rows for one request while they wait for rows of another could wait for each other. So only
+    the first job of a group waits for rows that others have locked. A later one that needs such rows is undone and
+    begins the next group, once this one is committed.
+    """
+
+    largest = 32  # while a group runs, other servers may wait for its rows
+
+    def _run(self, batch: list[Job]) -> None:
+        """Commit a batch. If the database fails, run each job of the group in a transaction by itself.
+
+        A transaction that the database has undone, or whose connection is lost before the commit, is tried again.
+        """
+        groups = deque([Group(batch)])
+        while groups:
+            group = groups.popleft()
+            try:
+                conn = self._begin()
+            except Exception as error:
+                self._fail_all(chain(group.jobs, *(later.jobs for later in groups)), error)
+                return
+            try:
+                rest = self._commit_some(conn, group.jobs)
+            except Exception as error:
+                self._disconnect()
+                unsure = isinstance(error, _CommitFailed) and error.cause.connection_invalidated
+                if len(group.jobs) > 1 and not unsure:
+                    groups.extendleft(Group([job]) for job in reversed(group.jobs))
+                elif group.undone < ATTEMPTS - 1 and not unsure and _is_undone(error):
+                    time.sleep(random.uniform(0, 0.01 * 2**group.undone))  # noqa: S311 - jitter
+                    groups.appendleft(Group(group.jobs, group.undone + 1))
+                else:
+                    _fail(group.jobs, error, unsure)
+            else:
+                if line_of(conn).is_spoilt:
+                    self._disconnect()
+                if rest:
+                    groups.appendleft(Group(rest))
+
+    def _commit_some(self, conn: Connection, group: list[Job]) -> list[Job]:
+        """Commit the jobs before the first one that must wait, and return the others."""
+        if len(group) == 1:
+            self._commit(conn, group)
+            return []
+        topics: Topics = set()
+        outcomes: list[Outcome] = []
+        line = line_of(conn)
+        try:
+            for job, savepoint in zip(group, cycle(SAVEPOINTS)):
+                try:
+                    outcomes.append(_in_savepoint(conn, job.work, topics, savepoint))
+                except MustWait:
+                    _undo(conn, savepoint)
+                    break
+                if line.may_wait:
+                    line.run(conn, "SET LOCAL lock_timeout = 1")  # ms, the least that there is
+                    line.may_wait = False
+        finally:
+            line.may_wait = True
+        done = len(outcomes)
+        self._finish(conn, group[:done], outcomes, topics)
+        return group[done:]
+
+
 def _fail(jobs: Iterable[Job], error: Exception, unsure: bool = False) -> None:
     cause = error.cause if isinstance(error, _CommitFailed) else error
+    if isinstance(cause, DBAPIError) and not isinstance(cause, IntegrityError):  # which the same request has again
+        cause = _storage_failed(cause, unsure)
     for job in jobs:
-        job.future.set_exception(_storage_failed(cause, unsure) if isinstance(cause, DBAPIError) else cause)
+        job.future.set_exception(cause)
 
 
-def _alone(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:
+def _alone(conn: Connection, work: Work[Any], topics: Topics) -> Outcome:
     """Run the only job of a batch, which needs no savepoint: to undo it is to undo all."""
     try:
         return work(conn, topics), None
@@ -238,68 +333,37 @@ def _alone(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exce
         return None, error
 
 
-def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics) -> tuple[Any, Exception | None]:
+def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics, savepoint: str) -> Outcome:
     """Run one job. A refusal changes nothing in the store; a failing database fails the whole batch."""
     woken: Topics = set()
     line = line_of(conn)
-    line.run(conn, "SAVEPOINT job")
+    line.forget()
+    line.run(conn, f"SAVEPOINT {savepoint}")
     try:
         result = work(conn, woken)
-    except OperationalError:
+    except (OperationalError, MustWait):
         raise
     except Exception as error:
-        line.run(conn, "ROLLBACK TO SAVEPOINT job")
-        line.run(conn, "RELEASE SAVEPOINT job")
+        _undo(conn, savepoint)
         return None, error
-    line.run(conn, "RELEASE SAVEPOINT job")
+    line.run(conn, f"RELEASE SAVEPOINT {savepoint}")
     topics |= woken
     return result, None
 
 
-class CommittingThreads:
-    """A few threads: each job is a transaction by itself. It is run again if the database undid it."""
+def _undo(conn: Connection, savepoint: str) -> None:
+    """Undo a job. On PostgreSQL this fails later if an earlier job failed, because then there is no such savepoint."""
+    line = line_of(conn)
+    line.run(conn, f"ROLLBACK TO SAVEPOINT {savepoint}")
+    line.run(conn, f"RELEASE SAVEPOINT {savepoint}")
 
-    def __init__(self, engine: Engine, committed: Callable[[Topics], None], threads: int) -> None:
-        self._engine = engine
-        self._committed = committed
-        self.load = Load()
-        self._pool = ThreadPoolExecutor(threads, "waypost-write")
 
-    def submit(self, work: Work[T]) -> Future[T]:
-        """Queue a transaction; the future resolves after its commit.
-
-        Raises:
-            StoreBusy: too many transactions wait.
-        """
-        self.load.take()
-        future = self._pool.submit(self._run, work)
-        future.add_done_callback(self.load.leave)
-        return future
-
-    def close(self) -> None:
-        """Finish submitted transactions, then stop."""
-        self._pool.shutdown()
-
-    def _run(self, work: Work[T]) -> T:
-        for attempt in range(ATTEMPTS):
-            topics: Topics = set()
-            committing = False
-            try:
-                with self._engine.begin() as conn:
-                    result = work(conn, topics)
-                    committing = True
-            except OperationalError as error:
-                lost = error.connection_invalidated and not committing
-                undone = lost or getattr(error.orig, "sqlstate", None) in RETRIED
-                if not undone or attempt == ATTEMPTS - 1:
-                    raise _storage_failed(error, unsure=committing and not undone) from error
-                time.sleep(random.uniform(0, 0.01 * 2**attempt))  # noqa: S311 - jitter
-                continue
-            self.load.committed(1)
-            if topics:
-                self._committed(topics)
-            return result
-        raise AssertionError("unreachable")
+def _is_undone(error: Exception) -> bool:
+    """Whether nothing is stored, and another attempt may succeed."""
+    cause = error.cause if isinstance(error, _CommitFailed) else error
+    return isinstance(cause, DBAPIError) and (
+        cause.connection_invalidated or getattr(cause.orig, "sqlstate", None) in RETRIED
+    )
 
 
 class _CommitFailed(Exception):

@@ -46,14 +46,17 @@ class Candidates:
         )
 
 
-LAST_ANSWERED = Prepared(
-    select(queries.c.run_id, queries.c.episode)
-    .join(answers, answers.c.query_id == queries.c.id)
-    .join(runs, runs.c.id == queries.c.run_id)
-    .where(answers.c.user_id == bindparam("user"), runs.c.gold_of.is_(None))
+# Queries in queries, not joins: PostgreSQL plans this once, often while the tables are small, and would then begin with
+# all queries of a run.
+_GOLD_OF = select(runs.c.gold_of).where(runs.c.id == answers.c.run_id).scalar_subquery()
+_LAST_QUERY = (
+    select(answers.c.query_id)
+    .where(answers.c.user_id == bindparam("user"), _GOLD_OF.is_(None))
     .order_by(answers.c.id.desc())
     .limit(1)
+    .scalar_subquery()
 )
+LAST_ANSWERED = Prepared(select(queries.c.run_id, queries.c.episode).where(queries.c.id == _LAST_QUERY))
 _SKIPPED = exists().where(skips.c.query_id == queries.c.id, skips.c.user_id == bindparam("user"))
 # Since the query was selected, its annotator may have leased and skipped it in another request.
 _LOCK_ONE = Prepared(

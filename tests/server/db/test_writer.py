@@ -13,7 +13,7 @@ from sqlalchemy.exc import OperationalError
 from waypost_server import errors
 from waypost_server.db.engine import Database
 from waypost_server.db.transaction import Tx
-from waypost_server.db.writer import LARGEST_BATCH, GroupCommit
+from waypost_server.db.writer import GroupCommit
 
 
 def add(name: str) -> Any:
@@ -169,7 +169,7 @@ def test_a_locked_store_keeps_nobody_waiting_longer_than_one_attempt(
     writer: GroupCommit, engine: Engine, intruder: Intruder
 ) -> None:
     go = held_up(writer)
-    futures = [writer.submit(add(str(number))) for number in range(3 * LARGEST_BATCH)]
+    futures = [writer.submit(add(str(number))) for number in range(3 * GroupCommit.largest)]
     intruder.lock_at(1)
     go.set()
     for future in futures:
@@ -202,7 +202,7 @@ def test_a_store_that_is_locked_while_a_batch_is_repeated_is_tried_once(
 def test_closing_a_locked_store_ends(engine: Engine, intruder: Intruder) -> None:
     writer = GroupCommit(engine, lambda _topics: None)
     go = held_up(writer)
-    futures = [writer.submit(add(str(number))) for number in range(2 * LARGEST_BATCH)]
+    futures = [writer.submit(add(str(number))) for number in range(2 * GroupCommit.largest)]
     intruder.lock_at(1)
     closing = threading.Thread(target=writer.close)
     closing.start()
@@ -271,7 +271,8 @@ def test_time_is_the_databases(database_url: str) -> None:
 
 
 def test_deadlocks_are_tried_again(cluster: Any) -> None:
-    db = Database(cluster.create())
+    url = cluster.create()
+    db, other = Database(url), Database(url)
     db.write_now(
         lambda tx: tx.conn.exec_driver_sql("CREATE TABLE pairs AS SELECT x, 0 AS n FROM generate_series(1, 2) x")
     )
@@ -288,7 +289,9 @@ def test_deadlocks_are_tried_again(cluster: Any) -> None:
 
         return work
 
-    threads = [threading.Thread(target=db.write_now, args=(cross(a, b),)) for a, b in ((1, 2), (2, 1))]
+    threads = [
+        threading.Thread(target=server.write_now, args=(cross(a, b),)) for server, a, b in ((db, 1, 2), (other, 2, 1))
+    ]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -297,3 +300,4 @@ def test_deadlocks_are_tried_again(cluster: Any) -> None:
     rows = db.read_now(lambda tx: tx.conn.exec_driver_sql("SELECT n FROM pairs").scalars().all())
     assert rows == [2, 2]
     db.close()
+    other.close()
