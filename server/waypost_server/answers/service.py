@@ -141,9 +141,9 @@ def _open(tx: Tx, post: Post) -> Case:
     lock_run = _LOCK_ITS_RUN if tx.may_wait else _LOCK_ITS_RUN_IF_FREE
     _look_ahead(tx, post, of, lock_run)
     locked, query = lock_run.first(tx.conn, of), _LOCK_ITS_QUERY.first(tx.conn, of)
+    assignment = find(tx, post.assignment, post.user, post.token)
     if locked is None and not tx.may_wait:
         raise MustWait
-    assignment = find(tx, post.assignment, post.user, post.token)
     run = runs.existing(assignment.run, locked)
     assert query is not None  # nobody deletes a query before its assignments
     return Case(assignment, run, query, Outline.model_validate_json(query.ask), text, canonical.digest(text))

@@ -79,7 +79,8 @@ def append(conn: Connection, entries: Sequence[Entry]) -> None:
     """Append rows, as the last statements of a transaction.
 
     SQLite has one writing transaction at a time. On PostgreSQL, a lock makes writers wait for each other's commit: each
-    must see the row that it follows. It is taken last and nothing is locked after it, so it causes no deadlock.
+    must see the row that it follows. It is taken last, and later transactions of a group do not wait for locks
+    (`db.writer`), so it causes no deadlock.
     """
     if conn.dialect.name == "postgresql":
         conn.execute(text("SELECT pg_advisory_xact_lock(:lock)"), {"lock": LOCK})

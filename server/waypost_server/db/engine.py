@@ -286,7 +286,7 @@ def _postgresql(url: URL, *, writes: bool) -> Engine:
 
     @event.listens_for(engine, "handle_error")
     def failed(context: ExceptionContext) -> None:
-        if getattr(context.original_exception, "sqlstate", None) == LOCKED:
+        if writes and getattr(context.original_exception, "sqlstate", None) == LOCKED:
             raise MustWait from context.original_exception
 
     @event.listens_for(engine, "commit")

@@ -3,6 +3,7 @@
 One thread with one connection runs all waiting transactions together, each in a savepoint, and commits once.
 """
 
+import logging
 import random
 import threading
 import time
@@ -10,7 +11,7 @@ from collections import deque
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from dataclasses import dataclass
-from itertools import chain, cycle
+from itertools import chain
 from queue import Empty, SimpleQueue
 from typing import Any, Protocol, TypeVar
 
@@ -21,6 +22,8 @@ from waypost_server import errors
 from waypost_server.db.sending import MustWait, line_of
 from waypost_server.db.wakeups import Topics
 
+log = logging.getLogger("waypost")
+
 T = TypeVar("T")
 Work = Callable[[Connection, Topics], T]
 
@@ -28,9 +31,6 @@ Work = Callable[[Connection, Topics], T]
 MOST_WAITING = 1_000
 ATTEMPTS = 8
 RETRIED = {"40001", "40P01"}  # PostgreSQL: serialization failure, deadlock
-# Of the jobs of a group, by turns: statements wait (`sending`), so one job's may fail in the next one, and undoing that
-# one must not undo the other.
-SAVEPOINTS = ("job_a", "job_b")
 
 
 class Writer(Protocol):
@@ -99,7 +99,7 @@ class Job:
     future: Future[Any]
 
 
-Outcome = tuple[Any, Exception | None]
+Outcome = tuple[Any, BaseException | None]
 """What a job returned, or the error that it raised."""
 
 
@@ -216,17 +216,22 @@ class GroupCommit:
         return self._conn
 
     def _disconnect(self) -> None:
-        """Undo what was not committed. The next batch takes a connection from the pool again."""
-        if self._conn is not None:
-            self._conn.close()
-            self._conn = None
+        """Undo what was not committed. The next batch takes another connection.
+
+        Closing alone would roll back, which fails if the database is gone, and would end the thread.
+        """
+        conn, self._conn = self._conn, None
+        if conn is not None:
+            if not conn.invalidated:
+                conn.invalidate()
+            conn.close()
 
     def _commit(self, conn: Connection, group: list[Job]) -> None:
         topics: Topics = set()
         if len(group) == 1:
             outcomes = [_alone(conn, group[0].work, topics)]
         else:
-            outcomes = [_in_savepoint(conn, job.work, topics, SAVEPOINTS[0]) for job in group]
+            outcomes = [_in_savepoint(conn, job.work, topics, "job") for job in group]
         self._finish(conn, group, outcomes, topics)
 
     def _finish(self, conn: Connection, group: list[Job], outcomes: list[Outcome], topics: Topics) -> None:
@@ -237,8 +242,11 @@ class GroupCommit:
             raise _CommitFailed(error) from error
         # The group is on disk from here on.
         self.load.committed(len(group))
-        if topics:
-            self._committed(topics)
+        try:
+            if topics:
+                self._committed(topics)
+        except Exception:
+            log.exception("What was committed could not be announced")
         for job, (result, refusal) in zip(group, outcomes, strict=True):
             if refusal is None:
                 job.future.set_result(result)
@@ -288,7 +296,7 @@ class SharedGroupCommit(GroupCommit):
                     groups.appendleft(Group(rest))
 
     def _commit_some(self, conn: Connection, group: list[Job]) -> list[Job]:
-        """Commit the jobs before the first one that must wait, and return the others."""
+        """Commit the jobs up to the first one that must wait or that spoilt the connection, and return the others."""
         if len(group) == 1:
             self._commit(conn, group)
             return []
@@ -296,11 +304,16 @@ class SharedGroupCommit(GroupCommit):
         outcomes: list[Outcome] = []
         line = line_of(conn)
         try:
-            for job, savepoint in zip(group, cycle(SAVEPOINTS)):
+            for place, job in enumerate(group):
+                savepoint = f"job_{place}"
                 try:
                     outcomes.append(_in_savepoint(conn, job.work, topics, savepoint))
                 except MustWait:
+                    if not outcomes:
+                        raise
                     _undo(conn, savepoint)
+                    break
+                if line.is_spoilt:
                     break
                 if line.may_wait:
                     line.run(conn, "SET LOCAL lock_timeout = 1")  # ms, the least that there is
@@ -324,9 +337,9 @@ def _alone(conn: Connection, work: Work[Any], topics: Topics) -> Outcome:
     """Run the only job of a batch, which needs no savepoint: to undo it is to undo all."""
     try:
         return work(conn, topics), None
-    except OperationalError:
-        raise
-    except Exception as error:
+    except BaseException as error:
+        if _fails_all(error):
+            raise
         conn.rollback()
         conn.begin()
         topics.clear()
@@ -341,9 +354,9 @@ def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics, savepoint: 
     line.run(conn, f"SAVEPOINT {savepoint}")
     try:
         result = work(conn, woken)
-    except (OperationalError, MustWait):
-        raise
-    except Exception as error:
+    except BaseException as error:
+        if _fails_all(error):
+            raise
         _undo(conn, savepoint)
         return None, error
     line.run(conn, f"RELEASE SAVEPOINT {savepoint}")
@@ -351,8 +364,18 @@ def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics, savepoint: 
     return result, None
 
 
+def _fails_all(error: BaseException) -> bool:
+    """Whether an error in a job says that the database failed, not that the job is refused."""
+    lost = isinstance(error, DBAPIError) and error.connection_invalidated
+    return lost or isinstance(error, OperationalError | MustWait)
+
+
 def _undo(conn: Connection, savepoint: str) -> None:
-    """Undo a job. On PostgreSQL this fails later if an earlier job failed, because then there is no such savepoint."""
+    """Undo a job.
+
+    On PostgreSQL, statements wait (`sending`), so the failure of an earlier job may show in this one. Each has another
+    savepoint. So this one's does not exist then, and the group fails when this is sent.
+    """
     line = line_of(conn)
     line.run(conn, f"ROLLBACK TO SAVEPOINT {savepoint}")
     line.run(conn, f"RELEASE SAVEPOINT {savepoint}")

@@ -183,6 +183,54 @@ def test_a_retracted_answer_is_refunded_and_its_correction_counts(service: Servi
     assert answered["answer"] == correction
 
 
+def test_an_answer_takes_the_time_since_its_lease(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    began = time.monotonic()
+    held = service.annotator.lease()
+    leased = time.monotonic()
+    time.sleep(0.05)
+    answering = time.monotonic()
+    seconds = service.annotator.answer(held)["seconds"]
+    assert answering - leased <= seconds <= time.monotonic() - began
+
+
+def test_a_correction_belongs_to_the_tab_that_retracted(service: Service) -> None:
+    service.learner.ask(service.learner.create_run(), query())
+    held = service.annotator.lease(tab="first")
+    service.annotator.answer(held)
+    again = service.annotator.retract(held, tab="second")
+    service.annotator.leave("first")
+    assert service.annotator.renew(again)
+    service.annotator.leave("second")
+    assert service.annotator.answer(again, expect=409)["type"] == "/problems/lease-ended"
+
+
+def test_a_second_retraction_returns_the_annotators_own_correction_or_none(service: Service) -> None:
+    run = service.learner.create_run()
+    service.learner.ask(run, query(), query(ordinal=1))
+    held = service.annotator.lease()
+    service.annotator.answer(held)
+    again = service.annotator.retract(held)
+    service.annotator.lease()  # another query
+    assert service.annotator.retract(held) == again
+    service.annotator.release(again)
+    taken = service.user("otto", "annotator").lease()
+    assert taken["query"]["id"] == held["query"]["id"]
+    assert service.annotator.retract(held, expect=409)["type"] == "/problems/answer-retracted"
+
+
+def test_a_retracted_answers_query_has_the_runs_priority_of_now(service: Service) -> None:
+    run, other = service.learner.create_run(), service.learner.create_run()
+    (asked,) = service.learner.ask(run, query())
+    held = service.annotator.lease()
+    service.annotator.answer(held)
+    service.learner.ask(other, query())
+    service.admin.patch(other, priority=1)
+    service.admin.patch(run, priority=2)
+    service.annotator.release(service.annotator.retract(held))
+    assert service.annotator.lease()["query"]["id"] == asked["id"]
+
+
 def test_an_answer_the_learner_used_cannot_be_taken_back(service: Service) -> None:
     (asked,) = service.learner.ask(service.learner.create_run(), query())
     assert service.learner.post(f"/queries/{asked['id']}/use", expect=409)["type"] == "/problems/not-answered"

@@ -19,6 +19,7 @@ from waypost_server.db.engine import Database
 from waypost_server.db.prepared import Prepared
 from waypost_server.db.tables import runs, users
 from waypost_server.db.transaction import Tx
+from waypost_server.db.wakeups import Topics
 from waypost_server.leases import service as leases
 from waypost_server.leases.request import LeaseRequest
 from waypost_server.settings import Settings
@@ -48,7 +49,8 @@ def other(url: str) -> Iterator[Database]:
 
 
 def add(name: str) -> Callable[[Tx], None]:
-    return lambda tx: ADD.run(tx.conn, {"name": name, "role": "viewer", "created_at": tx.now})
+    """Return what adds a user by a statement that waits to be sent."""
+    return lambda tx: ADD.run(tx.conn, {"name": name, "role": "viewer", "created_at": 0})
 
 
 def names(tx: Tx) -> list[str]:
@@ -136,6 +138,58 @@ def test_a_statement_that_fails_late_fails_its_own_request(db: Database, place: 
     for future in futures:
         future.result(10)
     assert {"ann", "bea"} <= {*db.read_now(names)} <= {"ann", "bea", "cid"}
+
+
+def test_a_request_after_one_that_failed_does_not_get_its_connection(db: Database) -> None:
+    """psycopg may believe that a statement is prepared which the database never got."""
+
+    def fail(tx: Tx) -> None:
+        add("ann")(tx)
+        names(tx)
+
+    db.write_now(add("ann"))
+    db.write_now(lambda tx: [names(tx) for _ in range(5)])  # it is prepared the next time
+    first, failed, last = together(db, add("bea"), fail, names)
+    with pytest.raises(IntegrityError, match="unique"):
+        failed.result(10)
+    assert (first.result(10), last.result(10)) == (None, ["ann", "bea"])
+
+
+@pytest.mark.parametrize("n", [1, 2])
+def test_a_database_that_goes_away_after_an_error_does_not_stop_the_writer(db: Database, n: int) -> None:
+    tries = []
+
+    def fail_once(tx: Tx) -> None:
+        tries.append(tx)
+        process = tx.conn.execute(text("SELECT pg_backend_pid()")).scalar_one()
+        if len(tries) == 1:
+            try:
+                tx.conn.execute(text("SET LOCAL statement_timeout = 50"))
+                tx.conn.execute(text("SELECT pg_sleep(10)"))
+            finally:
+                db.read_now(lambda tx: tx.conn.execute(text(f"SELECT pg_terminate_backend({process}, 5000)")).all())
+
+    futures = together(db, fail_once, add("ann"))[:n]
+    for future in futures:
+        future.exception(10)
+    db.write_now(add("bea"))
+    assert "bea" in db.read_now(names)
+
+
+def test_what_is_committed_is_not_repeated_if_nobody_can_be_told(url: str) -> None:
+    def tell(_: Topics) -> None:
+        raise RuntimeError("The event loop is closed")
+
+    def add_and_wake(tx: Tx) -> None:
+        add(f"user{len(names(tx))}")(tx)
+        tx.wake("queue")
+
+    db = Database(url, tell)
+    for future in together(db, add_and_wake, add_and_wake):
+        assert future.result(10) is None
+    assert db.read_now(names) == ["user0", "user1"]
+    assert db.load.commits == 2
+    db.close()
 
 
 def test_what_was_read_ahead_is_not_taken_for_what_another_request_reads(db: Database) -> None:
