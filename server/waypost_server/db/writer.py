@@ -99,7 +99,7 @@ class Job:
     future: Future[Any]
 
 
-Outcome = tuple[Any, BaseException | None]
+Outcome = tuple[Any, Exception | None]
 """What a job returned, or the error that it raised."""
 
 
@@ -337,7 +337,7 @@ def _alone(conn: Connection, work: Work[Any], topics: Topics) -> Outcome:
     """Run the only job of a batch, which needs no savepoint: to undo it is to undo all."""
     try:
         return work(conn, topics), None
-    except BaseException as error:
+    except Exception as error:
         if _fails_all(error):
             raise
         conn.rollback()
@@ -354,7 +354,7 @@ def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics, savepoint: 
     line.run(conn, f"SAVEPOINT {savepoint}")
     try:
         result = work(conn, woken)
-    except BaseException as error:
+    except Exception as error:
         if _fails_all(error):
             raise
         _undo(conn, savepoint)
@@ -364,7 +364,7 @@ def _in_savepoint(conn: Connection, work: Work[Any], topics: Topics, savepoint: 
     return result, None
 
 
-def _fails_all(error: BaseException) -> bool:
+def _fails_all(error: Exception) -> bool:
     """Whether an error in a job says that the database failed, not that the job is refused."""
     lost = isinstance(error, DBAPIError) and error.connection_invalidated
     return lost or isinstance(error, OperationalError | MustWait)
