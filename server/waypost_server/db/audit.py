@@ -80,7 +80,7 @@ def append(conn: Connection, entries: Sequence[Entry]) -> None:
 
     SQLite has one writing transaction at a time. On PostgreSQL, a lock makes writers wait for each other's commit: each
     must see the row that it follows. It is taken last, and later transactions of a group do not wait for locks
-    (`db.writer`), so it causes no deadlock.
+    (`db.writers.shared`), so it causes no deadlock.
     """
     if conn.dialect.name == "postgresql":
         conn.execute(text("SELECT pg_advisory_xact_lock(:lock)"), {"lock": LOCK})

@@ -1,7 +1,7 @@
 """The store: opens an SQLite or PostgreSQL database, and runs transactions on it.
 
 Transactions run on threads, not on the event loop, and are acknowledged after their commit. One thread with one
-connection writes and commits many transactions at once (`db.writer`).
+connection writes and commits many transactions at once (`db.writers`).
 """
 
 import asyncio
@@ -23,7 +23,9 @@ from waypost_server.db.notifications import Notifications
 from waypost_server.db.sending import BEGIN, LOCKED, TOGETHER, MustWait, line_of
 from waypost_server.db.transaction import Count, Counts, Tx
 from waypost_server.db.wakeups import Topics
-from waypost_server.db.writer import GroupCommit, Load, SharedGroupCommit, Writer
+from waypost_server.db.writers.group_commit import GroupCommit
+from waypost_server.db.writers.load import Load
+from waypost_server.db.writers.shared import SharedGroupCommit
 
 T = TypeVar("T")
 
@@ -64,7 +66,7 @@ class Database:
             (committed or _nobody)(topics)
             tell(topics)
 
-        self._writer: Writer = (GroupCommit if lite else SharedGroupCommit)(self._engine, changed)
+        self._writer = (GroupCommit if lite else SharedGroupCommit)(self._engine, changed)
 
     def write_now(self, work: Callable[[Tx], T]) -> T:
         """Run a transaction and return its result once it is on disk.

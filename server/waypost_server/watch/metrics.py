@@ -1,7 +1,7 @@
 """Metrics in Prometheus' text format: what the store holds, and what this process has done since it started.
 
 No statement reads a whole table that grows with answers: open queries, live leases and waiting messages have partial
-indexes, and runs are few. All else is counted where it happens (`db.transaction`, `http.traffic`, `db.writer`).
+indexes, and runs are few. All else is counted where it happens (`db.transaction`, `http.traffic`, `db.writers`).
 """
 
 from collections.abc import Iterable, Iterator
@@ -11,7 +11,7 @@ from sqlalchemy import func, select
 from waypost.prices import to_units
 from waypost_server.db.tables import IS_LIVE, IS_OPEN, IS_PENDING, assignments, deliveries, queries, runs, webhooks
 from waypost_server.db.transaction import Counts, Tx
-from waypost_server.db.writer import Load
+from waypost_server.db.writers.load import Load
 from waypost_server.http.traffic import Traffic
 
 Sample = tuple[str, float]

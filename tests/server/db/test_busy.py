@@ -9,7 +9,7 @@ from tests.server.kit import API, Service, query
 
 from waypost_server import errors
 from waypost_server.db.transaction import Tx
-from waypost_server.db.writer import MOST_WAITING
+from waypost_server.db.writers.load import MOST_WAITING
 
 
 @contextmanager

@@ -13,7 +13,7 @@ from sqlalchemy.exc import OperationalError
 from waypost_server import errors
 from waypost_server.db.engine import Database
 from waypost_server.db.transaction import Tx
-from waypost_server.db.writer import GroupCommit
+from waypost_server.db.writers.group_commit import GroupCommit
 
 
 def add(name: str) -> Any:
